@@ -1,4 +1,4 @@
-"""What is remembered between two runs, and how to forget it: a run is only timed fairly when it starts from nothing.
+"""What is remembered between two runs, and how to forget it: a run is only timed fairly when it starts from zero.
 
 And how much memory a run may take.
 """

@@ -221,7 +221,7 @@ def _product(text: str, factors: str) -> tuple[float, Dimension]:
         match = _FACTOR.fullmatch(part)
         known = UNITS.get(match[1] or match[3]) if match else None
         if match is None or known is None:
-            raise UnitError("unit", f"{quote(text)} is not a unit ptmcalc knows", _suggest(_plain(text), part))
+            raise UnitError("unit", f"{quote(text)} is an unknown unit", _suggest(_plain(text), part))
         power = int(match[2] or match[4] or 1)
         factor *= known[0] ** power
         dimension = _combine(dimension, known[1], power)
@@ -248,7 +248,7 @@ def _suggest(text: str, part: str) -> str:
     close = folded.get(name.lower()) or next(iter(difflib.get_close_matches(name, folded.values(), 1)), None)
     if close:
         return f"did you mean `{close}`?"
-    return "units are SI and engineering ones: " + " ".join(name for name in UNITS if name not in {"1", "°"})
+    return "permitted units: " + " ".join(name for name in UNITS if name not in {"1", "°"})
 
 
 _FOREIGN: Mapping[str, tuple[str, float]] = MappingProxyType(

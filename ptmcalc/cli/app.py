@@ -89,7 +89,7 @@ def check(
     ],
     form: Annotated[
         CheckFormat | None,
-        typer.Option("--format", help="How to print; a table on a terminal, else plain lines."),
+        typer.Option("--format", help="Output format; a table on a terminal, otherwise plain lines."),
     ] = None,
     output: Annotated[
         list[str] | None,
@@ -97,7 +97,7 @@ def check(
     ] = None,
     verbose: Annotated[
         bool,
-        typer.Option("--verbose", "-v", help="The whole table: every load, check, effect, event and run."),
+        typer.Option("--verbose", "-v", help="The complete table: every load, check, effect, event and run."),
     ] = False,
     ledger: Annotated[
         bool,
@@ -111,14 +111,14 @@ def check(
     budget: BudgetOption = "60 s",
     repairs: RepairsOption = True,
     validate_only: Annotated[
-        bool, typer.Option("--validate-only", help="Read and validate the files; compute nothing, judge nothing.")
+        bool, typer.Option("--validate-only", help="Read and validate the files without a computation.")
     ] = False,
     history: Annotated[
         list[str] | None,
         typer.Option(
             "--history",
             metavar="[FILE.csv]",
-            help="Loads over time: in the JSON, and in a file when one is named; may be repeated.",
+            help="Loads over time: in the JSON, and in a named CSV file; may be repeated.",
         ),
     ] = None,
     html: Annotated[
@@ -144,9 +144,9 @@ def check(
     store: StoreOption = "",
     executor: ExecutorOption = "local",
 ) -> None:
-    """Check design files: loads, verdicts, and what would make a failed check pass.
+    """Check design files: loads, verdicts, and values at which failed checks would pass.
 
-    Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 a bug of ours.
+    Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 a program error.
     """
     if jobs.isdecimal() and int(jobs) > 1 and executor == "local" and not os.path.exists(store):
         from ptmcalc.cli import processes
@@ -202,7 +202,7 @@ def check(
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))
     if tallies and all(one.unchosen for one in tallies):
-        say("ptmcalc: no check is left by --select and --ignore; nothing was checked\n", err=True)
+        say("ptmcalc: --select and --ignore exclude all checks; nothing was checked\n", err=True)
     elif unchosen := sum(one.unchosen for one in tallies):
         files_are = "1 file has" if unchosen == 1 else f"{unchosen} files have"
         say(f"ptmcalc: {files_are} no check that --select and --ignore leave\n", err=True)
@@ -218,12 +218,12 @@ def check(
 def merge(
     parts: Annotated[list[str], typer.Argument(help="JSON reports of the shards of a run, or their stores.")],
     output: Annotated[
-        str, typer.Option("--output", "-o", metavar="FILE", help="Where to; a report is printed when left out.")
+        str, typer.Option("--output", "-o", metavar="FILE", help="Output file; without it a report is printed.")
     ] = "",
 ) -> None:
-    """Unite the JSON reports, or the stores, of the shards of a run.
+    """Combine the JSON reports, or the stores, of the shards of a run.
 
-    Exit status: that of the united report, as of `check`; 0 for stores.
+    Exit status: that of the combined report, as for `check`; 0 for stores.
     """
     from ptmcalc.cli.merge import united
 
@@ -232,10 +232,10 @@ def merge(
 
 @app.command()
 def diff(
-    old: Annotated[str, typer.Argument(help="A design file, a folder of them, or a JSON report, as it was.")],
-    new: Annotated[str, typer.Argument(help="The same as it is now.")],
+    old: Annotated[str, typer.Argument(help="Previous state: a design file, a folder of them, or a JSON report.")],
+    new: Annotated[str, typer.Argument(help="Present state.")],
     form: Annotated[
-        CostFormat, typer.Option("--format", help="How to print; markdown is a comment on a pull request.")
+        CostFormat, typer.Option("--format", help="Output format; markdown is a comment on a pull request.")
     ] = CostFormat.TABLE,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
@@ -244,9 +244,9 @@ def diff(
     jobs: JobsOption = "auto",
     store: StoreOption = "",
 ) -> None:
-    """Show what changed between two states: verdicts, and loads against their error bars.
+    """Show the changes between two states: verdicts, and loads relative to their error bars.
 
-    Exit status: 0 nothing is worse, 1 a verdict is worse, 2 wrong usage or a file that is invalid now, 4 a bug of ours.
+    Exit status: 0 nothing is worse, 1 a verdict is worse, 2 wrong usage or an invalid new file, 4 a program error.
     """
     from ptmcalc.cli.diff import show_diff
     from ptmcalc.engine.check import Options
@@ -263,7 +263,7 @@ def plan(
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
 ) -> None:
-    """Show which effects each scene calls for, the number that decides, and the predicted cost."""
+    """Show the effects required by each scene, their criteria and the predicted cost."""
     from ptmcalc.cli.listing import show_plan
     from ptmcalc.engine.check import Options
 
@@ -276,25 +276,27 @@ def plan(
 def cost(
     paths: Annotated[list[str] | None, typer.Argument(help="Design files, and folders of them.")] = None,
     form: Annotated[
-        CostFormat, typer.Option("--format", help="How to print; markdown is the table of a line per file.")
+        CostFormat, typer.Option("--format", help="Output format; markdown is a table with one line per file.")
     ] = CostFormat.TABLE,
     accuracy: Annotated[
         list[str] | None,
-        typer.Option("--accuracy", help="An accuracy to price; may be repeated. 5 %, 1 % and 0.1 % when left out."),
+        typer.Option(
+            "--accuracy", help="Accuracy for which the cost is measured; may be repeated. Default: 5 %, 1 % and 0.1 %."
+        ),
     ] = None,
     plot: Annotated[str, typer.Option("--plot", metavar="FILE.html", help="Draw error against time as a page.")] = "",
     all_files: Annotated[
-        bool, typer.Option("--all", help="A line per file, of all in specs/ when no path is named.")
+        bool, typer.Option("--all", help="One line per file; without a path all files in specs/.")
     ] = False,
     scene: ScenesOption = None,
     effects: EffectsOption = None,
     budget: Annotated[
-        str, typer.Option("--budget", help="Predicted time of running every setting of a file once, e.g. 10s.")
+        str, typer.Option("--budget", help="Maximum predicted time of one run of every setting of a file, e.g. 10s.")
     ] = "10 s",
 ) -> None:
-    """Measure what accuracy costs: every solver and setting with its time, bar and true error.
+    """Measure the cost of accuracy: every solver and setting with its time, error bar and true error.
 
-    Errors are relative to a setting of another method, never to the same one. Exit status 1 when a bar does not
+    Errors are relative to a setting of another method, never of the same method. Exit status 1 if an error bar does not
     cover the true error.
     """
     from ptmcalc.cli.cost import show_cost
@@ -309,8 +311,8 @@ def explain(
     name: Annotated[
         str, typer.Argument(help="A code such as CNV101, or the name of an effect, a solver or a load.")
     ] = "",
-    everything: Annotated[bool, typer.Option("--all", help="Of every name: the handbook.")] = False,
-    form: Annotated[ExplainFormat, typer.Option("--format", help="How to print.")] = ExplainFormat.TEXT,
+    everything: Annotated[bool, typer.Option("--all", help="Explain every name: the handbook.")] = False,
+    form: Annotated[ExplainFormat, typer.Option("--format", help="Output format.")] = ExplainFormat.TEXT,
     where: Annotated[
         bool, typer.Option("--where", help="Print file and line of its definition and of its functions instead.")
     ] = False,
@@ -329,7 +331,7 @@ def explain(
 
 
 @app.command()
-def schema(kind: Annotated[str, typer.Argument(help="A kind; all of them when left out.")] = "") -> None:
+def schema(kind: Annotated[str, typer.Argument(help="Machine kind; default: all kinds.")] = "") -> None:
     """Print the JSON Schema of design files, for completion and checks in an editor."""
     from ptmcalc.cli.listing import json_schema
 
@@ -340,10 +342,10 @@ def schema(kind: Annotated[str, typer.Argument(help="A kind; all of them when le
 def new(
     kind: Annotated[str, typer.Argument(help="A kind of `ptmcalc kinds`.")],
     type_of_it: Annotated[
-        str, typer.Argument(metavar="[TYPE]", help="A type of the kind, where it has several; the first when left out.")
+        str, typer.Argument(metavar="[TYPE]", help="Type of a kind with several types; default: the first type.")
     ] = "",
 ) -> None:
-    """Print a commented design file to start from."""
+    """Print a commented design file as a starting point."""
     from ptmcalc.cli.listing import starting_file
 
     say(starting_file(kind, type_of_it))
@@ -359,10 +361,10 @@ def kinds(form: ListOption = ListFormat.TABLE) -> None:
 
 @app.command()
 def solvers(
-    kind: Annotated[str, typer.Argument(help="A kind; all of them when left out.")] = "",
+    kind: Annotated[str, typer.Argument(help="Machine kind; default: all kinds.")] = "",
     form: ListOption = ListFormat.TABLE,
 ) -> None:
-    """List the solvers: scene, effects they carry, predicted cost on the kind's template, error, source."""
+    """List the solvers: scene, simulated effects, predicted cost on the template of the kind, error, source."""
     from ptmcalc.cli.listing import show_solvers
 
     say(show_solvers(kind, form == ListFormat.JSON))
@@ -371,25 +373,25 @@ def solvers(
 @app.command()
 def solve(
     path: Annotated[str, typer.Argument(help="A design file.")],
-    code: Annotated[str, typer.Option("--check", help="The check that is to pass, e.g. CNV101.")],
+    code: Annotated[str, typer.Option("--check", help="The check to be passed, e.g. CNV101.")],
     vary: Annotated[
         list[str],
         typer.Option(
             "--vary",
             metavar="KEY",
-            help="The key that may move, e.g. takeup.tension. A second one with values, e.g. 'belt.mass=10 kg/m:30"
+            help="The key to be varied, e.g. takeup.tension. A second one with values, e.g. 'belt.mass=10 kg/m:30"
             " kg/m:5', gives the curve on which the check just passes.",
         ),
     ],
     margin: Annotated[
         str, typer.Option("--margin", help="Required distance from the limit: a share of it, e.g. 10%, or in its unit.")
     ] = "",
-    scene: Annotated[str, typer.Option("--scene", help="Only this scene; all scenes of the check when left out.")] = "",
+    scene: Annotated[str, typer.Option("--scene", help="Only this scene; default: all scenes of the check.")] = "",
     form: ListOption = ListFormat.TABLE,
 ) -> None:
     """Find the value of one key at which a check just passes, its error bar included, and the other verdicts there.
 
-    Exit status 1 when no value within three decades changes the verdict.
+    Exit status 1 if no value within three decades changes the verdict.
     """
     from ptmcalc.cli.solution import show_solution
 
@@ -412,8 +414,8 @@ def sweep(
         Sample, typer.Option("--sample", help="All combinations, or a Latin hypercube of --points points.")
     ] = Sample.GRID,
     points: Annotated[int | None, typer.Option("--points", help="Points of a Latin hypercube.")] = None,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the points that are drawn.")] = 0,
-    form: Annotated[StudyFormat, typer.Option("--format", help="How to print.")] = StudyFormat.TABLE,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random points.")] = 0,
+    form: Annotated[StudyFormat, typer.Option("--format", help="Output format.")] = StudyFormat.TABLE,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
@@ -422,11 +424,11 @@ def sweep(
     store: StoreOption = "",
     executor: ExecutorOption = "local",
 ) -> None:
-    """Vary keys of a machine: verdicts, margins and loads at every point, and where verdicts turn.
+    """Vary keys of a machine: verdicts, margins and loads at every point, and the limits of the verdicts.
 
-    What closed forms decide is computed for all points at once; the rest goes through the batch as far as the budget
-    allows; the remaining points are reported as open. Exit status: 0 every point is decided, 2 wrong usage or an
-    invalid file, 3 points are open, 4 a bug of ours.
+    Closed forms are computed for all points at once; other points are computed as a batch as far as the budget
+    permits; the remaining points are reported as open. Exit status: 0 every point is decided, 2 wrong usage or an
+    invalid file, 3 points are open, 4 a program error.
     """
     from ptmcalc.cli.study import Means, show_sweep
     from ptmcalc.engine.check import Options
@@ -439,12 +441,15 @@ def sweep(
 @app.command()
 def tolerances(
     path: Annotated[str, typer.Argument(help="A design file with `tolerances:`.")],
-    samples: Annotated[int, typer.Option("--samples", help="Machines to draw.")] = 10_000,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the machines that are drawn.")] = 0,
+    samples: Annotated[int, typer.Option("--samples", help="Number of random machines.")] = 10_000,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random machines.")] = 0,
     confidence: Annotated[
-        str, typer.Option("--confidence", help="Of the intervals, and share of machines that have the margin shown.")
+        str,
+        typer.Option(
+            "--confidence", help="Confidence level of the intervals, and share of machines with the stated margin."
+        ),
     ] = "95 %",
-    form: Annotated[StudyFormat, typer.Option("--format", help="How to print.")] = StudyFormat.TABLE,
+    form: Annotated[StudyFormat, typer.Option("--format", help="Output format.")] = StudyFormat.TABLE,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
@@ -453,11 +458,11 @@ def tolerances(
     store: StoreOption = "",
     executor: ExecutorOption = "local",
 ) -> None:
-    """Draw machines by the tolerances of a file: how often each check fails, by what, and what margin is left.
+    """Random machines by the tolerances of a file: probability of failure, governing keys and margin of each check.
 
-    Probabilities come with the interval of Clopper and Pearson, margins with that of order statistics; a machine whose
-    verdict is undecided counts as neither, and the upper end is that of all of them failing. Exit status: 0 every
-    machine is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a bug of ours.
+    Probabilities have the interval of Clopper and Pearson, margins that of order statistics; a machine with an
+    undecided verdict counts as neither, and the upper end assumes that all of them fail. Exit status: 0 every
+    machine is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a program error.
     """
     from ptmcalc.cli.study import Means, show_tolerances
     from ptmcalc.engine.check import Options
@@ -471,17 +476,19 @@ def tolerances(
 def scale(
     path: Annotated[str, typer.Argument(help="A design file.")],
     length: Annotated[str, typer.Option("--length", help="Model to prototype, e.g. 1:10 or 0.1.")],
-    law: Annotated[Law, typer.Option("--law", help="What the model keeps: all, all but gravity, or that by ballast.")],
+    law: Annotated[
+        Law, typer.Option("--law", help="Similarity of the model: full, without gravity, or gravity by ballast.")
+    ],
     modulus: Annotated[str, typer.Option("--modulus", help="Elastic modulus, model to prototype.")] = "",
     density: Annotated[str, typer.Option("--density", help="Density of the material, model to prototype.")] = "",
     gravity: Annotated[str, typer.Option("--gravity", help="Gravity, model to prototype: a centrifuge.")] = "",
     scene: ScenesOption = None,
     form: ListOption = ListFormat.TABLE,
 ) -> None:
-    """Show the loads, frequencies and times of a physical model of the machine, and what it distorts.
+    """Show loads, frequencies and times of a scaled physical model of the machine, and the distorted quantities.
 
-    The laws: `full` keeps all, with a material or a gravity to fit; `geometric` is a plain copy, which leaves gravity
-    out of scale; `ballast` adds masses to the copy. A ratio that is left out is 1; under `full` one of modulus,
+    Similarity laws: `full` is complete similarity with a matching material or gravity; `geometric` is a copy with
+    gravity out of scale; `ballast` adds masses to the copy. An omitted ratio is 1; under `full` one of modulus,
     density and gravity follows from the others.
     """
     from ptmcalc.cli.scale import show_scale

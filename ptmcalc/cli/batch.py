@@ -232,7 +232,7 @@ def _told(chosen: Chosen) -> list[FileReport]:
     """Reports of folders and patterns that hold no design file, and of links that are not followed."""
     told = []
     for word in chosen.empty:
-        what = "the folder holds no design file" if Path(word).is_dir() else "no design file is called so"
+        what = "the folder holds no design file" if Path(word).is_dir() else "no design file has this name"
         left_out = f"; {chosen.excluded} are left out" * bool(chosen.excluded)
         problem = Diagnostic("TXT102", what + left_out, hint="design files end in .yaml or .yml")
         told.append(FileReport(word, diagnostics=(problem,)))
@@ -264,7 +264,7 @@ def _jobs(text: str) -> int | None:
     if text == "auto":
         return None
     if not text.isdecimal() or not 1 <= int(text) <= 1024:
-        raise UsageError(f"`--jobs {text}` is no number of processes", "write auto, or a number from 1 up")
+        raise UsageError(f"`--jobs {text}` is not a number of processes", "write auto, or a number from 1 up")
     return int(text)
 
 

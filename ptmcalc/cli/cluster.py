@@ -49,7 +49,9 @@ class Cluster:
     def __init__(self, text: str) -> None:
         found = _ADDRESS.fullmatch(text)
         if found is None:
-            raise UsageError(f"`--executor {text}` is no executor", "write local, or dask://HOST:PORT of a scheduler")
+            raise UsageError(
+                f"`--executor {text}` is not an executor", "write local, or dask://HOST:PORT of a scheduler"
+            )
         self.place = found["place"]
         client = self._client()
         if client is None:

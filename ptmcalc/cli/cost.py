@@ -24,7 +24,7 @@ def show_cost(
 ) -> int:
     """Measure some files and print what their accuracy costs; the exit status."""
     if plot and Path(plot).suffix.lower() not in (".html", ".htm"):
-        raise UsageError(f"`--plot {plot}` is no page", "name a file that ends in .html")
+        raise UsageError(f"`--plot {plot}` is not a page", "name a file that ends in .html")
     asked = [_accuracy(text) for text in accuracies] or list(ACCURACIES)
     files = _files(paths or ([SPECS] if summary else []))
     if not files:

@@ -22,7 +22,7 @@ class Phase(StrEnum):
 
 
 class Format(StrEnum):
-    """How to print."""
+    """Output format."""
 
     TABLE = "table"
     JSON = "json"
@@ -31,12 +31,12 @@ class Format(StrEnum):
 def decode(
     path: Annotated[str, typer.Argument(help="A design file of a shaft.")],
     record: Annotated[str, typer.Argument(help="A CSV file with the columns time and speed, of the main shaft.")],
-    phase: Annotated[Phase, typer.Option("--phase", help="What the record shows.")],
+    phase: Annotated[Phase, typer.Option("--phase", help="Type of motion in the record.")],
     start: Annotated[str, typer.Option("--from", help="Angle of the main shaft at the first sample.")] = "0 deg",
     window: Annotated[
-        str, typer.Option("--window", help="Length of the fitted segments, e.g. 50 ms; chosen when left out.")
+        str, typer.Option("--window", help="Length of the fitted segments, e.g. 50 ms; default: automatic.")
     ] = "",
-    form: Annotated[Format, typer.Option("--format", help="How to print.")] = Format.TABLE,
+    form: Annotated[Format, typer.Option("--format", help="Output format.")] = Format.TABLE,
 ) -> None:
     """Decode a measured speed record: motor curve, losses or brake torque, with their uncertainty.
 

@@ -32,7 +32,7 @@ _DISPLAYED = re.compile(r"^ {4}\S.*(?:\n {4,}\S.*)*", re.MULTILINE)
 _HANDBOOK = """\
 # Handbook
 
-Every code, effect, solver and load of ptmcalc: formula, symbols, range, error, source, and an example that runs in the
+Every code, effect, solver and load of ptmcalc: formula, symbols, range, error, source, and an example for the
 top folder of the project. `ptmcalc explain --all --format markdown` writes this page; `ptmcalc explain NAME` prints one
 entry.
 """
@@ -117,9 +117,7 @@ def known_as(name: str, known: Collection[str]) -> str:
     if wanted not in known:
         alike = name[:3].upper() + name[3:].upper().translate(_DIGITS_ALIKE)
         close = [alike] if alike in known else difflib.get_close_matches(name, known, 1)
-        raise UsageError(
-            f"nothing is called `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`"
-        )
+        raise UsageError(f"unknown name `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`")
     return wanted
 
 
@@ -204,7 +202,7 @@ def label_of(kinds: Sequence[AnyKind]) -> str:
 
 
 def _finding(code: str, text: CodeText) -> Explanation:
-    parts = [Part("", text.why), Part("What to do", text.fix), *_example(EXAMPLES.get(code))]
+    parts = [Part("", text.why), Part("Corrective action", text.fix), *_example(EXAMPLES.get(code))]
     return Explanation(code, text.title, "", tuple(parts))
 
 
@@ -232,7 +230,7 @@ def _effect(whole: AnyKind, kinds: Sequence[AnyKind], effect: AnyEffect) -> Expl
         *([Part("Part of", effect.part_of)] if effect.part_of else []),
         Part("When it matters", criterion, displayed=True),
         *_latex(criterion),
-        Part(f"What leaving it out can change{' (calibrated)' * effect.calibrated}", bound, displayed=True),
+        Part(f"Change if it is neglected{' (calibrated)' * effect.calibrated}", bound, displayed=True),
         *_latex(bound),
         *_symbols(kinds[0], effect.name, of_effect(effect)),
         *_example(whole.examples().get(effect.name)),
@@ -242,14 +240,16 @@ def _effect(whole: AnyKind, kinds: Sequence[AnyKind], effect: AnyEffect) -> Expl
 
 def _solver(whole: AnyKind, kinds: Sequence[AnyKind], solver: AnySolver) -> Explanation:
     kind = kinds[0]
-    remarks = ["Effects it carries: " + (", ".join(sorted(solver.represents)) or "none")]
+    remarks = ["Simulated effects: " + (", ".join(sorted(solver.represents)) or "none")]
     if not solver.decides:
-        remarks.append("It is shown next to the reported load and never decides.")
+        remarks.append("It is shown next to the reported load and never decides a verdict.")
     if solver in kind.witnesses:
-        remarks.append("No plan offers it: `ptmcalc cost` holds the errors of the others against it.")
+        remarks.append("Reference method, never used for a verdict; `ptmcalc cost` compares the other solvers with it.")
     same = [one.name for one in kind.solvers if one.way == solver.way and one.name != solver.name]
     if same:
-        remarks.append(f"It computes as {', '.join(same)}: `ptmcalc cost` uses neither as a reference for the other.")
+        remarks.append(
+            f"It uses the method of {', '.join(same)}: `ptmcalc cost` uses neither as a reference for the other."
+        )
     text = _doc(solver.run)
     parts = [
         Part("", "\n".join(remarks)),
@@ -266,9 +266,9 @@ def _load(whole: AnyKind, kinds: Sequence[AnyKind], load: LoadInfo) -> Explanati
     reading = list(dict.fromkeys(check.code for kind in kinds for check in kind.checks if load.name in check.loads))
     of_parts = any(_is_family(kind, load) for kind in kinds)
     family = f"One for each part of the machine: `{load.name}[name]`.\n" if of_parts else ""
-    lines = [f"Found by: {', '.join(one.name for one in giving) or 'none'}"]
+    lines = [f"Computed by: {', '.join(one.name for one in giving) or 'none'}"]
     lines += [f"Read by: {', '.join(reading)}"] if reading else []
-    parts = [Part("", f"{family}In reports it is in {load.quantity.si} (JSON) or a unit of that size.")]
+    parts = [Part("", f"{family}Unit: {load.quantity.si} in JSON, a multiple of it in tables.")]
     parts += [Part("", "\n".join(lines))]
     parts += [Part("Range, error and source", _where(giving), displayed=True)] if giving else []
     parts += _example(whole.examples().get(load.name))

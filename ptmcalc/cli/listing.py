@@ -155,7 +155,7 @@ def starting_file(kind: str, type_of_it: str) -> str:
     if type_of_it and type_of_it not in types:
         if not types:
             raise UsageError(f"a {kind} is of no type", f"write `ptmcalc new {kind}`")
-        raise UsageError(f"no type of {kind} is called `{type_of_it}`", did_you_mean(type_of_it, types, "types: "))
+        raise UsageError(f"unknown type of {kind}: `{type_of_it}`", did_you_mean(type_of_it, types, "types: "))
     shown = types.get(type_of_it, chosen)
     others = [name for name in types if name != (type_of_it or next(iter(types)))]
     if not others or type_of_it:
@@ -174,7 +174,7 @@ def show_solvers(kind: str, as_json: bool) -> str:
         "scene",
         "solver",
         "fidelity",
-        "effects it carries",
+        "simulated effects",
         "cost on template",
         "error",
         "source",

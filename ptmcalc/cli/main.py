@@ -36,7 +36,7 @@ def main() -> None:
             raise
         say(
             f"ptmcalc: internal error: {type(error).__name__}: {shown(str(error))}\n"
-            "This is a bug of ptmcalc, not of your file. Please report it with the file and the output of the same"
+            "This is an error of ptmcalc, not of the file. Please report it with the file and the output of the same"
             " command under PTMCALC_TRACEBACK=1.\n",
             err=True,
         )

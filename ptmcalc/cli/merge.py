@@ -231,7 +231,7 @@ def read_report(path: Path) -> dict[str, Any]:
     except _MALFORMED:
         sound = False
     if not sound:
-        raise UsageError(f"`{path}` is no JSON report of ptmcalc", hint)
+        raise UsageError(f"`{path}` is not a JSON report of ptmcalc", hint)
     found: dict[str, Any] = document
     return found
 

@@ -71,29 +71,31 @@ class Law(StrEnum):
 
 ScenesOption = Annotated[list[str] | None, typer.Option("--scene", help="Only this scene; may be repeated.")]
 AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error of the governing loads, e.g. 1%.")]
-BudgetOption = Annotated[str, typer.Option("--budget", help="Predicted time each scene may take at most, e.g. 2s.")]
+BudgetOption = Annotated[str, typer.Option("--budget", help="Maximum predicted time of a scene, e.g. 2s.")]
 EffectsOption = Annotated[
     list[str] | None,
-    typer.Option("--effects", help="NAME=on|off|auto, replaces the setting of the file; may be repeated."),
+    typer.Option("--effects", help="NAME=on|off|auto; overrides the setting of the file; may be repeated."),
 ]
 ExcludeOption = Annotated[
     list[str] | None,
-    typer.Option("--exclude", metavar="PATTERN", help="Leave out of folders, as .gitignore writes it; repeatable."),
+    typer.Option("--exclude", metavar="PATTERN", help="Exclude files by a .gitignore pattern; may be repeated."),
 ]
 GitignoreOption = Annotated[
-    bool, typer.Option("--gitignore/--no-gitignore", help="Leave out of folders what their .gitignore leaves out.")
+    bool, typer.Option("--gitignore/--no-gitignore", help="Exclude the files that .gitignore excludes.")
 ]
 JobsOption = Annotated[
-    str, typer.Option("--jobs", "-j", metavar="auto|N", help="Processes; auto: all cores where the work is worth it.")
+    str,
+    typer.Option(
+        "--jobs", "-j", metavar="auto|N", help="Number of processes; auto: all cores if the work justifies them."
+    ),
 ]
 ShardOption = Annotated[
-    str, typer.Option("--shard", metavar="I/N", help="Every N-th file from the I-th; `merge` unites the reports.")
+    str,
+    typer.Option("--shard", metavar="I/N", help="Check every N-th file from the I-th; `merge` combines the reports."),
 ]
 StoreOption = Annotated[
     str,
-    typer.Option(
-        "--store", metavar="FILE", help="Keep results there, go on from them, re-use those of unchanged files."
-    ),
+    typer.Option("--store", metavar="FILE", help="Store results there; reuse the results of unchanged files."),
 ]
 ExecutorOption = Annotated[
     str,
@@ -104,12 +106,12 @@ ExecutorOption = Annotated[
     ),
 ]
 StudyBudgetOption = Annotated[
-    str, typer.Option("--budget", help="Predicted time of all points that need a run of their own, e.g. 5min.")
+    str, typer.Option("--budget", help="Maximum predicted time of all points that require separate runs, e.g. 5min.")
 ]
 RepairsOption = Annotated[
-    bool, typer.Option("--repairs/--no-repairs", help="Look for the value at which a failed check would pass.")
+    bool, typer.Option("--repairs/--no-repairs", help="Compute the value at which a failed check would pass.")
 ]
-ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
+ListOption = Annotated[ListFormat, typer.Option("--format", help="Output format.")]
 
 
 def history_with_its_value(words: list[str]) -> list[str]:
@@ -169,5 +171,5 @@ def seconds_of(text: str) -> float:
     except units.UnitError as error:
         raise UsageError(f"--budget: {error.reason}", error.hint) from None
     if seconds < 0:
-        raise UsageError(f"--budget: `{text}` is less than no time", "e.g. --budget 2s")
+        raise UsageError(f"--budget: `{text}` is negative", "e.g. --budget 2s")
     return seconds

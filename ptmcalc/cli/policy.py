@@ -16,21 +16,24 @@ if TYPE_CHECKING:
 
 SelectOption = Annotated[
     list[str] | None,
-    typer.Option("--select", metavar="CODE", help="Only findings whose code begins so, e.g. CNV; may be repeated."),
+    typer.Option("--select", metavar="CODE", help="Only findings with this code prefix, e.g. CNV; may be repeated."),
 ]
 IgnoreOption = Annotated[
     list[str] | None,
-    typer.Option("--ignore", metavar="CODE", help="No findings whose code begins so; the longer prefix wins."),
+    typer.Option(
+        "--ignore", metavar="CODE", help="No findings with this code prefix; the longer prefix takes precedence."
+    ),
 ]
 BaselineOption = Annotated[
-    str, typer.Option("--baseline", metavar="FILE", help="Findings it holds are waived, unless they are worse now.")
+    str,
+    typer.Option("--baseline", metavar="FILE", help="Findings of this baseline are waived unless they are worse now."),
 ]
 WriteOption = Annotated[
     str,
     typer.Option("--write-baseline", metavar="FILE", help="Write the present findings as a baseline, and apply it."),
 ]
 ExitZeroOption = Annotated[
-    bool, typer.Option("--exit-zero", help="Exit status 0 also where checks fail or are undecided.")
+    bool, typer.Option("--exit-zero", help="Exit status 0 also if checks fail or are undecided.")
 ]
 
 

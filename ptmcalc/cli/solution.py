@@ -94,9 +94,9 @@ def _spare(loaded: Loaded, wanted: AnyCheck, margin: str) -> Spare:
         number = float(margin.strip().removesuffix("%")) / 100 if share else read(margin, quantity)
     except (UnitError, ValueError) as error:
         hint = error.hint if isinstance(error, UnitError) else ""
-        raise UsageError(f"`--margin {margin}` is no margin", hint or "write e.g. `10 %`") from None
+        raise UsageError(f"`--margin {margin}` is not a margin", hint or "write e.g. `10 %`") from None
     if not (math.isfinite(number) and number >= 0):
-        raise UsageError(f"`--margin {margin}` is no margin", "write one from 0 up, e.g. `10 %`")
+        raise UsageError(f"`--margin {margin}` is not a margin", "write one from 0 up, e.g. `10 %`")
 
     def spare(limit: Estimate) -> float:
         if share and limit.value == 0:

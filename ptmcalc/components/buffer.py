@@ -37,13 +37,13 @@ _EXAMPLE = {
 
 
 class Buffer(Fragment):
-    """The buffers on one end, of which all are equal and hit at once."""
+    """The buffers at one end: equal, in contact at the same time."""
 
     type: Literal["linear", "progressive", "constant", "hydraulic"] = "linear"
     """`linear`: springs, rubber; `progressive`: cellular plastic, its force grows as a power of the stroke; `constant`:
     friction, hydraulic with a tapered pin; `hydraulic`: one orifice, force proportional to the square of the speed"""
-    count: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one on each rail, as cranes have them")] = 2
-    """buffers that are hit at once, one on each rail"""
+    count: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one buffer on each rail, the usual arrangement")] = 2
+    """number of buffers in simultaneous contact, one on each rail"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("force, end_force, orifice")] = None
     """of one `linear` buffer"""
     force: Annotated[PositiveForce | None, OneOf("stiffness, end_force, orifice")] = None
@@ -52,19 +52,19 @@ class Buffer(Fragment):
     """of one `progressive` buffer at the end of its stroke"""
     power: Annotated[
         Annotated[float, Measure(units.RATIO, above=0, at_most=10)],
-        Assumed(2.0, 1.5, 3.0, "cellular plastic: 2 to 3; rubber about 1.5", only_with=("type", "progressive")),
+        Assumed(2.0, 1.5, 3.0, "cellular plastic 2 to 3; rubber about 1.5", only_with=("type", "progressive")),
     ] = 2.0
-    """with which the force of a `progressive` buffer grows; 2 to 3 for cellular plastic"""
+    """exponent of the force of a `progressive` buffer; 2 to 3 for cellular plastic"""
     orifice: Annotated[PositiveLineMass | None, OneOf("stiffness, force, end_force")] = None
-    """force over the square of the speed of one `hydraulic` buffer, in kg/m"""
+    """force / squared speed of one `hydraulic` buffer, in kg/m"""
     stroke: PositiveLength
     """maximum compression"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of one buffer, or of what it stands on; needed to check it"""
+    """permissible force of one buffer, or of its end stop; needed to check it"""
     largest_speed: Annotated[PositiveSpeed | None, Limit()] = None
-    """it may be hit with, from its maker's list"""
-    shape: Annotated[PositiveFraction | None, Absent("that of the curve which the `type` has")] = None
-    """energy over largest force times stroke; by the type when left out"""
+    """maximum impact speed, from the manufacturer's catalogue"""
+    shape: Annotated[PositiveFraction | None, Absent("the value of the curve of the `type`")] = None
+    """energy / (maximum force times stroke); default: by the type"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -110,8 +110,9 @@ class Stopped:
         """What to say where the buffers, which stand at `path`, do not stop what hits them."""
         if not self.left:
             return ()
-        why = f"the buffers bottom out with {units.show(self.left, units.SPEED)} left: the force has no upper end"
-        return (Finding("NUM110", why, (*path, "stroke"), "give them more stroke, or a larger force"),)
+        left = units.show(self.left, units.SPEED)
+        why = f"the buffers bottom out with a residual speed of {left}: the force has no upper limit"
+        return (Finding("NUM110", why, (*path, "stroke"), "increase the stroke or the force of the buffers"),)
 
     def failures(self, check: str, given: Buffer, path: KeyPath, error: float = 0.0) -> tuple[Failure, ...]:
         """A check of the force that fails because the energy of the impact exceeds what the buffers take.
@@ -124,8 +125,9 @@ class Stopped:
         """
         if given.rating is None or self.left <= error:
             return ()
-        reason = f"the buffers bottom out with {units.show(self.left, units.SPEED)} left, and the end stop is hit"
-        return (Failure(check, reason, (*path, "stroke"), "give them more stroke, or a larger force"),)
+        left = units.show(self.left, units.SPEED)
+        reason = f"the buffers bottom out with a residual speed of {left}, and the crane hits the end stop"
+        return (Failure(check, reason, (*path, "stroke"), "increase the stroke or the force of the buffers"),)
 
     def at_least(self, value: float) -> Estimate:
         """A force, or what comes of one: exact, or without an end above where the stop behind the buffers is hit."""

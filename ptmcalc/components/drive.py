@@ -29,7 +29,7 @@ class Motor(Fragment):
     inertia: PositiveInertia
     """rotor of one motor"""
     speed: Annotated[PositiveAngularSpeed | None, Limit()] = None
-    """rated speed; compared with the speed of the machine, ratio and drum or sprocket"""
+    """rated speed; compared with machine speed, ratio and pulley, drum or sprocket"""
     mean_starting_torque: Annotated[PositiveTorque | None, OneOf("curve, largest_starting_torque")] = None
     """mean starting torque of one motor, or give the largest and the smallest"""
     largest_starting_torque: Annotated[PositiveTorque | None, OneOf("mean_starting_torque")] = None
@@ -37,11 +37,11 @@ class Motor(Fragment):
     smallest_starting_torque: Annotated[PositiveTorque | None, OneOf("mean_starting_torque")] = None
     """torque before each step of a rheostat start, one motor"""
     curve: AnyMotor | None = None
-    """torque over speed of one motor, which a start of the shape `curve` follows; gives the mean torque too"""
+    """torque-speed curve of one motor, for a start of the shape `curve`; also determines the mean torque"""
     start_heat: Annotated[PositiveEnergy | None, Limit()] = None
-    """heat the rotor of one motor may take up in one start, from its data sheet; with it the start is checked"""
+    """permissible rotor heat of one motor per start, from its data sheet; needed to check the start"""
     no_load_speed: Annotated[PositiveAngularSpeed | None, Limit()] = None
-    """speed without load, of an induction motor the synchronous one; that of the `curve` when it is left out"""
+    """no-load speed, for an induction motor the synchronous speed; default: that of the `curve`"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -49,7 +49,9 @@ class Motor(Fragment):
         yield from ratings_that_differ(given)
         rated, most = given.number("speed"), given.number("no_load_speed")
         if rated is not None and most is not None and most < rated:
-            yield Conflict(("no_load_speed",), "a motor runs slower under load than without", "check both speeds")
+            yield Conflict(
+                ("no_load_speed",), "a motor runs more slowly with load than without load", "check both speeds"
+            )
         mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
         if largest not in given and smallest not in given:
             if "curve" not in given:
@@ -58,8 +60,12 @@ class Motor(Fragment):
             for key in (largest, smallest):
                 yield from at_most_one(given, mean, key)
         else:
-            yield from together(given, largest, smallest, "the largest and the smallest starting torque go together")
-            yield from together(given, smallest, largest, "the largest and the smallest starting torque go together")
+            yield from together(
+                given, largest, smallest, "the largest and the smallest starting torque are given together"
+            )
+            yield from together(
+                given, smallest, largest, "the largest and the smallest starting torque are given together"
+            )
             high, low = given.number(largest), given.number(smallest)
             if high is not None and low is not None and low > high:
                 yield Conflict((smallest,), "the smallest starting torque is above the largest", "swap them")
@@ -80,6 +86,6 @@ class Gear(Fragment):
     """The gear between motor and drive shaft."""
 
     ratio: PositiveRatio
-    """motor speed over that of the drive shaft"""
+    """motor speed / drive shaft speed"""
     efficiency: Annotated[Efficiency | None, Assumed()] = None
     """from motor to drive shaft; 0.94 is assumed when it is left out"""

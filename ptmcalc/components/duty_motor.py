@@ -12,7 +12,7 @@ from ptmcalc.spec.optional import Assumed, Limit
 
 
 class DutyMotor(drive.Motor):
-    """The motors of a crane's motion, one of several equal ones."""
+    """The motors of a crane motion, one of several equal ones."""
 
     coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
@@ -23,11 +23,11 @@ class DutyMotor(drive.Motor):
     rated_duty: Annotated[PositiveShare, Limit()] = 1.0
     """duty factor of the rating, e.g. `40 %`; continuous when left out"""
     starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
-    """how often the maker lets it start; needed to check the starts"""
+    """permitted starts per hour of the manufacturer; needed to check the starts"""
     cooling: Literal["self_ventilated", "self_ventilated_closed", "unventilated", "separately_ventilated"] = (
         "self_ventilated"
     )
-    """how it is cooled at rest"""
+    """cooling at standstill"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

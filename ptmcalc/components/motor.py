@@ -73,7 +73,7 @@ class Motor(Fragment):
     """the number that all its torques grow with, where there is one"""
 
     largest_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """the most the motor may be loaded with for a short time (overload limit); needed to check it"""
+    """permissible short-time torque (overload limit); needed to check it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -118,7 +118,7 @@ class RatedMotor(Motor):
 
 
 class ConstantMotor(RatedMotor):
-    """A motor that gives the same torque at every speed."""
+    """A motor with the same torque at every speed."""
 
     size_key: ClassVar[str] = "torque"
     type: Literal["constant"]
@@ -136,12 +136,12 @@ class ConstantMotor(RatedMotor):
 
 
 class LinearMotor(RatedMotor):
-    """A motor whose torque falls in a straight line with its speed, as a DC motor's, beyond both ends too."""
+    """A motor with a torque that decreases linearly with its speed, as a DC motor, also outside the given range."""
 
     size_key: ClassVar[str] = "starting_torque"
     type: Literal["linear"]
     starting_torque: PositiveTorque
-    """torque at rest"""
+    """torque at standstill"""
     no_load_speed: PositiveAngularSpeed
     """speed at which the torque is 0; above it the motor brakes"""
 
@@ -161,11 +161,11 @@ class InductionBase(Motor):
     synchronous_speed: PositiveAngularSpeed
     """speed of the field: 3000, 1500, 1000, 750 rpm ... at 50 Hz"""
     overload: RatioAboveOne
-    """largest (breakdown) torque over the rated one"""
+    """breakdown torque / rated torque"""
     formula: Literal["simplified", "full"] = "simplified"
     """the formula of Kloss without (`simplified`) or with (`full`) the resistance of the stator"""
     stator_ratio: Annotated[PositiveRatio | None, Setting("the full formula of Kloss: equal resistances")] = None
-    """resistance of the stator over that of the rotor as seen from it, in the full formula; 1 when left out"""
+    """stator resistance / rotor resistance referred to the stator, in the full formula; 1 when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -175,7 +175,7 @@ class InductionBase(Motor):
         overload, full = given.number("overload"), given.word("formula") == "full"
         if "stator_ratio" in given and given.word("formula") == "simplified":
             hint = "delete `stator_ratio`, or write `formula: full`"
-            yield Conflict(("stator_ratio",), "the simplified formula knows no resistance of the stator", hint)
+            yield Conflict(("stator_ratio",), "the simplified formula does not contain the stator resistance", hint)
         if speed is None or synchronous is None:
             return
         if speed >= synchronous:
@@ -254,13 +254,13 @@ class InductionMotor(InductionBase):
 
 
 class RheostatMotor(InductionBase):
-    """A slip-ring motor started over resistances that are cut out one after the other."""
+    """A slip-ring motor with rotor resistances that are cut out step by step."""
 
     type: Literal["rheostat"]
     steps: Annotated[tuple[RatioAboveOne, ...], Field(min_length=1, max_length=30)]
-    """resistance of the rotor circuit over that of the rotor alone, step by step, falling; the rotor alone follows"""
+    """resistance of the rotor circuit / rotor resistance, per step, descending; the last step is the rotor alone"""
     smallest_torque: Annotated[PositiveTorque | None, OneOf("switch_times")] = None
-    """a step is cut out when its torque has fallen to this, or give `switch_times`"""
+    """torque at which a step is cut out, or give `switch_times`"""
     switch_times: Annotated[
         Annotated[tuple[PositiveTime, ...], Field(min_length=1, max_length=30)] | None, OneOf("smallest_torque")
     ] = None
@@ -274,10 +274,10 @@ class RheostatMotor(InductionBase):
         steps, times = _numbers(given, "steps", _ABOVE_ONE), _numbers(given, "switch_times", _DURATION)
         if index := _out_of_order([None if step is None else -step for step in steps]):
             yield Conflict(
-                ("steps", index), "the resistances do not fall from step to step", "sort them, largest first"
+                ("steps", index), "the resistances do not decrease from step to step", "sort them, largest first"
             )
         if index := _out_of_order(times):
-            yield Conflict(("switch_times", index), "the times do not rise from step to step", "sort them")
+            yield Conflict(("switch_times", index), "the times do not increase from step to step", "sort them")
         if steps and times and len(steps) != len(times):
             reason = f"{len(steps)} steps are cut out at {len(steps)} times, not at {len(times)}"
             yield Conflict(("switch_times",), reason, "give one time for each of the `steps`")
@@ -291,14 +291,14 @@ class RheostatMotor(InductionBase):
             return
         most, slip_of_most, ratio = natural
         if smallest >= most:
-            reason = f"no step gives more than the breakdown torque, {units.show(most, units.TORQUE)}"
+            reason = f"no step reaches more than the breakdown torque, {units.show(most, units.TORQUE)}"
             yield Conflict(("smallest_torque",), reason, f"write less, e.g. `{units.show(most / 2, units.TORQUE)}`")
             return
         slip = float(motor.kloss_slip(smallest, *natural))
         for index, step in enumerate(steps):
             if step is not None and step * slip >= 1:
                 at_rest = float(motor.kloss(1.0, most, motor.stage_breakdown_slip(slip_of_most, step), ratio / step))
-                reason = f"it gives {units.show(at_rest, units.TORQUE)} at rest, no more than `smallest_torque`"
+                reason = f"its starting torque is {units.show(at_rest, units.TORQUE)}, at most `smallest_torque`"
                 yield Conflict(("steps", index), reason, f"write a number below {_below(1 / slip)}")
 
     @property
@@ -314,7 +314,7 @@ class RheostatMotor(InductionBase):
 
 
 class ConverterMotor(RatedMotor):
-    """A motor on a frequency converter: it follows a ramp of speed, softly, up to a limit of torque."""
+    """A motor on a frequency converter: it follows a speed ramp with slip, up to a torque limit."""
 
     size_key: ClassVar[str] = "torque_limit"
     type: Literal["converter"]
@@ -327,11 +327,11 @@ class ConverterMotor(RatedMotor):
     ramp_time: Time
     """time in which the reference rises from 0 to `speed`; 0 s is a step"""
     torque_limit: PositiveTorque
-    """the most the converter lets the motor give, driving and braking"""
+    """torque limit of the converter, driving and braking"""
     slip: Annotated[RatedSlip | None, OneOf("stiffness")] = None
-    """shortfall of speed at rated torque over the rated speed, or give `stiffness`"""
+    """relative slip at rated torque, or give `stiffness`"""
     own_stiffness: Annotated[PositiveTorqueSlope | None, OneOf("slip")] = Field(default=None, alias="stiffness")
-    """torque per shortfall of speed, instead of `slip`"""
+    """torque per speed difference, instead of `slip`"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -340,11 +340,11 @@ class ConverterMotor(RatedMotor):
         yield from exactly_one(given, "power", "rated_torque")
         yield from exactly_one(given, "slip", "stiffness")
         if "rated_speed" in given and "power" not in given and "slip" not in given:
-            reason = "nothing uses it: it belongs to `power` and `slip`"
+            reason = "it is unused: it belongs to `power` and `slip`"
             yield Conflict(("rated_speed",), reason, "delete `rated_speed`")
         limit, rated = given.number("torque_limit"), cls.rated_by(given)
         if limit is not None and rated is not None and limit < rated:
-            reason = f"the motor could not give its rated torque, {units.show(rated, units.TORQUE)}"
+            reason = f"the motor could not reach its rated torque, {units.show(rated, units.TORQUE)}"
             yield Conflict(("torque_limit",), reason, f"write e.g. `{units.show(1.5 * rated, units.TORQUE)}`")
 
     @classmethod
@@ -404,15 +404,15 @@ class TorquePoint(Fragment):
     speed: SignedAngularSpeed
     """of the motor shaft"""
     torque: SignedTorque
-    """the motor gives there; negative where it brakes"""
+    """motor torque; negative for braking"""
 
 
 class TableMotor(RatedMotor):
-    """A motor whose curve is read from points, straight in between; outside of them the end values hold."""
+    """A motor with a curve of points, linear between them; the end values apply outside."""
 
     type: Literal["table"]
     points: Annotated[tuple[TorquePoint, ...], Field(min_length=2, max_length=500)]
-    """the points, the speeds rising"""
+    """the points, in ascending speed"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

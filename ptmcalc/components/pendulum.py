@@ -9,15 +9,16 @@ from ptmcalc.spec.optional import Absent
 
 
 class Suspension(Fragment):
-    """How the load hangs."""
+    """Suspension of the load."""
 
     length: PositiveSpan
-    """from where the ropes are held to the middle of the load, where a scene names no other; not the height of lift"""
-    hoist_speed: Annotated[PositiveSpeed | None, Absent("nothing is hoisted while the crane travels")] = None
+    """rope length from suspension point to load centre, unless the scene gives another; not the lifting height"""
+    hoist_speed: Annotated[PositiveSpeed | None, Absent("no hoisting while the crane travels")] = None
     """of the hook; needed to hoist while travelling"""
-    creep_speed: Annotated[PositiveSpeed | None, Absent("loads are lifted off at the full `hoist_speed`")] = None
-    """slow speed of the hook; with HD2 and HD3 the load is lifted off the ground with it"""
+    creep_speed: Annotated[PositiveSpeed | None, Absent("lift-off at the full `hoist_speed`")] = None
+    """creep speed of the hook; lift-off speed with HD2 and HD3"""
     height: Annotated[
-        Annotated[float, Measure(units.SPAN, at_least=0)] | None, Absent("the ropes are held on the trolley, as high")
+        Annotated[float, Measure(units.SPAN, at_least=0)] | None,
+        Absent("the rope suspension point is at trolley height"),
     ] = None
-    """of the place where the ropes are held, above the rails; that of the trolley when left out"""
+    """height of the rope suspension point above the rails; default: that of the trolley"""

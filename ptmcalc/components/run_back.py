@@ -109,7 +109,7 @@ def rollback_check(
         code=code,
         title=f"{part} rollback torque",
         question=f"Is the rollback torque of the stopped loaded {part} held by friction or the backstop?",
-        failure="rollback torque exceeds what the backstop may hold",
+        failure="rollback torque exceeds the permissible backstop torque",
         limit_state=LimitState(f"loaded {part} runs back"),
         scenes=scenes,
         loads=("backstop_torque",),

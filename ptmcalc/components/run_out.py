@@ -14,9 +14,9 @@ def too_long_a_way(scenes: Sequence[Scene], scene: Scene, way: float, coefficien
     return (
         Finding(
             "SPC201",
-            f"without any friction it would stop sooner than in the measured {units.show(way, units.LENGTH)}: the"
+            f"without friction it would stop within less than the measured {units.show(way, units.LENGTH)}: the"
             " coefficient identified from it is negative",
             ("scenes", list(scenes).index(scene), "measured_distance"),
-            "correct `measured_distance`, the speed, or what the load weighs and climbs",
+            "correct `measured_distance`, the speed, the load or the lift",
         ),
     )

@@ -40,7 +40,7 @@ class SlewMotor(Fragment):
     coupling_inertia: Annotated[Inertia | None, OneOf("coupling_factor")] = None
     """coupling and brake disc of one motor, on the motor shaft, or give `coupling_factor`"""
     coupling_factor: Annotated[PartsFactor | None, Assumed()] = None
-    """rotor with coupling over the rotor alone, 1.4 to 2; 1.7 is assumed when neither is given"""
+    """rotor with coupling / rotor alone, 1.4 to 2; 1.7 is assumed when neither is given"""
     mean_starting_torque: Annotated[PositiveTorque | None, OneOf("largest_starting_torque, curve")] = None
     """mean starting torque of one motor, or give the largest and the smallest, or a `curve`"""
     largest_starting_torque: Annotated[PositiveTorque | None, OneOf("mean_starting_torque, curve")] = None
@@ -56,19 +56,19 @@ class SlewMotor(Fragment):
     power: Annotated[PositivePower | None, Limit()] = None
     """rated power of one motor"""
     rated_duty: Annotated[
-        PositiveShare, Absent("continuous: the smallest torque for which a motor of this rating is designed")
+        PositiveShare, Absent("continuous duty: the smallest design torque of a motor of this rating")
     ] = 1.0
     """duty factor of the rating, e.g. `40 %`; continuous when left out"""
     largest_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """the most one motor may be loaded with for a short time"""
+    """permissible short-time torque of one motor"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """The starting torque, the rating and the coupling are given in one way each."""
         mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
         yield from at_most_one(given, mean, largest, "curve")
-        yield from together(given, largest, smallest, "the largest and the smallest starting torque go together")
-        yield from together(given, smallest, largest, "the largest and the smallest starting torque go together")
+        yield from together(given, largest, smallest, "the largest and the smallest starting torque are given together")
+        yield from together(given, smallest, largest, "the largest and the smallest starting torque are given together")
         high, low = given.number(largest), given.number(smallest)
         if high is not None and low is not None and low > high:
             yield Conflict((smallest,), "the smallest starting torque is above the largest", "swap them")
@@ -118,7 +118,7 @@ class OpenGear(Fragment):
     """The open stage at the slewing axis: pinion and ring gear, or lantern gear."""
 
     ratio: PositiveRatio
-    """pinion speed over speed of the crane"""
+    """pinion speed / slewing speed"""
     efficiency: Annotated[Efficiency, Assumed(0.95, 0.92, 0.97, "open stages with grease 0.92 to 0.97")] = 0.95
     """of this stage"""
 
@@ -127,21 +127,21 @@ class SlewGear(Fragment):
     """The whole gear between motor and slewing axis."""
 
     ratio: PositiveRatio
-    """motor speed over speed of the crane, open stage included"""
+    """motor speed / slewing speed, open stage included"""
     efficiency: Efficiency
     """from motor to crane, open stage included"""
     reverse_efficiency: Annotated[ReverseEfficiency | None, Assumed()] = None
     """from crane to motor; 2 - 1/efficiency when left out, negative for a self-locking worm"""
     open: OpenGear | None = None
     """the open stage; needed for the torque of the pinion"""
-    rotating_factor: Annotated[PartsFactor, Assumed(1.15, 1.1, 1.2, "shafts and wheels of the gear add 10 to 20 %")] = (
-        1.15
-    )
-    """all rotating parts of the drive over those on the motor shaft, 1.1 to 1.2"""
+    rotating_factor: Annotated[
+        PartsFactor, Assumed(1.15, 1.1, 1.2, "the rotating parts of the gear add 10 to 20 %")
+    ] = 1.15
+    """inertia of all rotating drive parts / inertia on the motor shaft, 1.1 to 1.2"""
     rated_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """of the gearbox on its fast shaft, in its group of the mechanism; needed to check it"""
+    """rated input torque of the gearbox in its mechanism group; needed to check it"""
     pinion_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """permissible for the life of the open pinion; needed to check it"""
+    """permissible torque for the service life of the open pinion; needed to check it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -152,11 +152,11 @@ class SlewGear(Fragment):
         ratio, efficiency = stage.number("ratio"), stage.number("efficiency")
         if ratio is not None and whole is not None and ratio > whole:
             reason = f"the whole ratio is {whole:g} only, and the open stage is a part of it"
-            yield Conflict(("open", "ratio"), reason, "let `ratio` be that of all stages, from motor to crane")
+            yield Conflict(("open", "ratio"), reason, "give the total `ratio` of all stages, from motor to crane")
         if efficiency is not None and loss is not None and efficiency < loss:
             reason = f"the whole efficiency is {loss:g}, and the open stage is a part of it"
             yield Conflict(
-                ("open", "efficiency"), reason, "let `efficiency` be that of all stages, from motor to crane"
+                ("open", "efficiency"), reason, "give the total `efficiency` of all stages, from motor to crane"
             )
 
     @property
@@ -173,8 +173,10 @@ class SlewBrake(Fragment):
     torque: PositiveTorque
     """of all brakes together, fully applied"""
     shaft: Literal["motor", "crane"] = "motor"
-    """the shaft it sits on: the motor's, or the slewing axis"""
-    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "slewing brakes act 0.1 to 0.3 s after they are switched off")] = 0.0
-    """from switching off until it begins to act"""
+    """shaft of the brake: motor shaft or slewing axis"""
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "slewing brakes close 0.1 to 0.3 s after they are switched off")] = (
+        0.0
+    )
+    """from switch-off to the start of the braking torque"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
-    """from then until its full torque, in a straight line"""
+    """from then to full torque, linear rise"""

@@ -30,17 +30,17 @@ class Profile(Fragment):
     """How the drive starts."""
 
     shape: Literal["step", "ramp", "cosine", "parabolic", "table", "curve"] = "step"
-    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
+    """`step` instantaneous, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
     `curve` as the motors' torque over their speed; when left out, the `curve` of the motors if the file gives one, else
     a step"""
-    time: Annotated[PositiveTime | None, OneOf("points, or a shape that is at once")] = None
+    time: Annotated[PositiveTime | None, OneOf("points, or an instantaneous shape")] = None
     """duration of the rise"""
     points: Annotated[tuple[ProfilePoint, ...], Field(min_length=2, max_length=500)] | None = None
-    """of a `table`: the times rising from 0, the shares rising to 1, straight in between"""
+    """of a `table`: times ascending from 0, shares ascending to 1, linear between points"""
     control: Literal["torque", "speed"] | None = None
-    """what follows the profile; a step is of torque, any other shape is of speed unless this is `torque`"""
-    ripple: Annotated[PositiveFrequency | None, Absent("a control that does not pulsate")] = None
-    """frequency at which the control of the drive pulsates; it is kept away from those of the machine"""
+    """controlled quantity; a step is a torque, any other shape is a speed unless this is `torque`"""
+    ripple: Annotated[PositiveFrequency | None, Absent("a control without ripple")] = None
+    """ripple frequency of the drive control; checked against the natural frequencies of the machine"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -48,14 +48,16 @@ class Profile(Fragment):
         shape = given.word("shape")
         if shape in ("step", "curve", "table") and "time" in given:
             hint = (
-                "delete `time`: the last point has it" if shape == "table" else "delete `time`, or write `shape: ramp`"
+                "delete `time`: the last point states it"
+                if shape == "table"
+                else "delete `time`, or write `shape: ramp`"
             )
             yield Conflict(("time",), f"a `{shape}` has no `time`", hint)
         if shape in ("step", "curve"):
             if given.word("control") == "speed":
                 reason = "a step of speed needs an infinite force"
                 if shape == "curve":
-                    reason = "a motor's curve is of torque"
+                    reason = "a motor curve describes a torque"
                 yield Conflict(("control",), reason, "write `shape: ramp` and a `time`")
         elif shape == "table":
             yield from _faulty_points(given)
@@ -108,10 +110,12 @@ def _faulty_points(given: Given) -> Iterator[Conflict]:
             yield Conflict(("points", index, "time"), reason, "sort the points by time, and give each time once")
     for index, (one, other) in enumerate(itertools.pairwise(shares), 1):
         if one is not None and other is not None and other < one:
-            yield Conflict(("points", index, "share"), "the share falls", "a start profile only rises: sort the shares")
+            yield Conflict(
+                ("points", index, "share"), "the share decreases", "a start profile only increases: sort the shares"
+            )
     if shares and shares[0] and given.word("control") != "torque":
-        reason = "the speed of a machine at rest is 0, and it does not jump"
+        reason = "the speed of a machine at standstill is 0 and does not jump"
         yield Conflict(("points", 0, "share"), reason, "write `share: 0`, or `control: torque`")
     if len(points) > 1 and shares[-1] is not None and shares[-1] != 1:
-        reason = "a table ends at 1, the whole of the speed or of the mean starting torque"
+        reason = "a table ends at 1, the full speed or the full mean starting torque"
         yield Conflict(("points", len(points) - 1, "share"), reason, "write `share: 1`")

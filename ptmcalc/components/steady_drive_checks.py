@@ -98,7 +98,7 @@ def steady_solver(
 
 
 def _reserve_limit(spec: Any, scene: Any) -> Estimate:
-    """The motors must reach the resistance.
+    """The motors reach at least the resistance.
 
     **Range** steady running.
     **Error** none.
@@ -185,7 +185,7 @@ def rated_torque_check(code: str, kind: SteadyMotors[S, C]) -> Check[S, C]:
 
     check: Check[S, C] = Check(
         code=code,
-        title="motor torque over rated torque, steady running",
+        title="motor torque utilisation, steady running",
         question="Is the motor torque of steady running within the rated torque?",
         failure="motor is overloaded in steady running",
         scenes=kind.scenes,

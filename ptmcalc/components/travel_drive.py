@@ -32,7 +32,7 @@ class TravelGear(Gear):
         forward = given.number("efficiency")
         locks = forward is not None and forward <= _SELF_LOCKING
         if locks and "efficiency" in given and "reverse_efficiency" not in given:
-            reason = "a gear of half the power or less locks itself: its wheels slide at every stop"
+            reason = "a gear with an efficiency of 50 % or less is self-locking: the wheels slip at every stop"
             yield Conflict(("efficiency",), reason, "write more, or give its `reverse_efficiency: 0.1`")
 
 
@@ -41,14 +41,14 @@ class TravelBrake(Fragment):
 
     torque: PositiveTorque
     """of all brakes together, fully applied"""
-    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "travel brakes act 0.1 to 0.3 s after they are switched off")] = 0.0
-    """from switching off until they begin to act"""
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "travel brakes close 0.1 to 0.3 s after they are switched off")] = 0.0
+    """from switch-off to the start of the braking torque"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
-    """from then until their full torque, in a straight line"""
+    """from then to full torque, linear rise"""
 
 
 class TravelDrive(Fragment):
-    """Motors, gear and brakes, and how they are controlled."""
+    """Motors, gear, brakes and their control."""
 
     motor: DutyMotor
     """the travel motors"""
@@ -57,21 +57,21 @@ class TravelDrive(Fragment):
     brake: TravelBrake | None = None
     """the brakes; without them the machine stops by `deceleration`"""
     acceleration: Annotated[PositiveAcceleration | None, Absent("the motors start with their torque")] = None
-    """of a drive that keeps to a ramp of speed (converter); or give `ramp_time`; without either the motors start with
+    """of a drive on a speed ramp (converter); or give `ramp_time`; without either the motors start with
     their mean starting torque"""
     ramp_time: Annotated[PositiveTime | None, Absent("the motors start with their torque")] = None
-    """from rest to full speed, instead of `acceleration`"""
+    """from standstill to full speed, instead of `acceleration`"""
     deceleration: Annotated[PositiveAcceleration | None, Absent("the brakes stop the machine")] = None
-    """of a service stop along a ramp of speed; without it the brakes stop the machine"""
+    """of a service stop on a speed ramp; without it the brakes stop the machine"""
     wheels: Literal["separate", "coupled"] = "separate"
-    """whether every driven wheel has its own share of the torque, or all are geared to one shaft"""
+    """independent drive of every driven wheel, or all wheels coupled to one shaft"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """The ramp is given in one way; something stops the machine."""
         yield from at_most_one(given, "acceleration", "ramp_time")
         if "brake" not in given and "deceleration" not in given:
-            yield given.missing("brake", "nothing stops the machine: give `brake` or `deceleration`")
+            yield given.missing("brake", "the machine has no brake: give `brake` or `deceleration`")
 
     @property
     def torque(self) -> float:

@@ -1,1 +1,1 @@
-"""Floor 3: the nouns a machine kind fills in and the nouns a report is made of."""
+"""Classes that a machine kind fills in, and classes of a report."""

@@ -1,4 +1,4 @@
-"""A check: a load against a limit, and what to say when it does not hold."""
+"""A check: comparison of a load with a limit, and the text of its failure."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -15,7 +15,7 @@ from ptmcalc.spec.scene import Scene
 
 
 class Sense(StrEnum):
-    """Which side of the limit is sound."""
+    """Permissible side of the limit."""
 
     AT_LEAST = "at_least"
     AT_MOST = "at_most"
@@ -23,7 +23,7 @@ class Sense(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class LimitState:
-    """The physical limit behind a check, such as a belt that slips: what happens there, and the value at which it does.
+    """Physical limit state of a check, such as belt slip, and the value at which it is reached.
 
     That value is 1 for a reserve, 0 for a tension, infinite for a time or distance of a motion that never ends.
     """
@@ -32,7 +32,7 @@ class LimitState:
     at: float = math.inf
 
     def reached(self, value: Estimate, limit: Estimate, sense: Sense) -> bool:
-        """True if the whole error bar of the value lies at this state or beyond it, or an upper limit is 0."""
+        """True if the whole error bar of the value is at or beyond this state, or an upper limit is 0."""
         if sense is Sense.AT_LEAST:
             return value.high <= self.at
         return value.low >= self.at or limit.high <= 0
@@ -42,16 +42,15 @@ class LimitState:
 class Check(Generic[S, C]):
     """One design check.
 
-    `title` is a noun phrase that names the reported quantity: it is printed behind `pass` and `fail` alike. `question`
-    asks for the check in one sentence; `failure` states what a failed check means, and `limit_state` what it means
-    where the physical limit itself is reached.
+    `title` is a noun phrase that names the reported quantity: it is printed after `pass` and `fail`. `question` states
+    the check as a question; `failure` states what a failed check means, and `limit_state` its meaning if the physical
+    limit itself is reached.
 
-    `loads` are the loads it reads and `value` what it makes of them (the first one itself when left out); `limit`
-    is what that is held against; `needs` are the optional keys without which it
-    is not checked. `blame` names the key that governs a bad verdict, from the loads found; `repair` the key a
-    bracketing solve may move, or an empty path; with `repairs_blame` it is the key that `blame` names from the loads.
-    A check of every part of a machine gives with `each` the checks of the parts, made by `of`; its own `loads` are then
-    families.
+    `loads` are the loads that the check uses, `value` is computed from them (default: the first one), and
+    `limit` is compared with it; `needs` are the optional keys without which it is not checked. `blame` names
+    the key that governs a bad verdict, from the loads found; `repair` the key that `solve` may vary, or an empty
+    path; with `repairs_blame` it is the key that `blame` names from the loads. A check of every part of a machine gives
+    with `each` the checks of the parts, made by `of`; its own `loads` are then families.
     """
 
     code: str
@@ -75,16 +74,16 @@ class Check(Generic[S, C]):
     element: str = ""
     repairs_blame: bool = False
     forbids_band: bool = False
-    """whether values of the repair's key on both sides of those that fail pass"""
+    """True if values of the repair key on both sides of the failing interval pass"""
     types: frozenset[str] = frozenset()
-    """types of the kind that it is made for; empty for all types that have one of its scenes"""
+    """types of the kind that the check applies to; empty for all types with one of its scenes"""
 
     def applies_to(self, scene: Scene) -> bool:
-        """Whether this type of scene is held against the check."""
+        """True if the check applies to this type of scene."""
         return type(scene) in self.scenes
 
     def on(self, spec: S, scene: C) -> "Iterable[Check[S, C]]":
-        """The checks to be made of a machine: itself, or one for each part."""
+        """The checks of a machine: the check itself, or one for each part."""
         return (self,) if self.each is None else self.each(spec, scene)
 
     def of(
@@ -108,18 +107,18 @@ class Check(Generic[S, C]):
         )
 
     def is_of(self, other: "Check[S, C]") -> bool:
-        """Whether it is the other check, or that of a part of the machine."""
+        """True if it is the other check, or the same check of a part of the machine."""
         return self.code == other.code and other.element in ("", self.element)
 
     def meaning(self, value: Estimate | None, limit: Estimate | None) -> str:
-        """What a failed check means, by its value."""
+        """Meaning of a failed check, by its value."""
         state = self.limit_state
         if state is not None and value is not None and limit is not None and state.reached(value, limit, self.sense):
             return state.text
         return self.failure
 
     def read(self, spec: S, scene: C, loads: Mapping[str, Estimate]) -> Estimate:
-        """What is held against the limit."""
+        """The value that is compared with the limit."""
         return self.value(spec, scene, loads) if self.value else loads[self.loads[0]]
 
 
@@ -128,7 +127,7 @@ K = TypeVar("K", bound=AnyCheck)
 
 
 def only(wanted: Callable[[Any, Any], bool]) -> Callable[[K], K]:
-    """Makes a check one of some machines and scenes only: of those that `wanted(spec, scene)` names."""
+    """Restrict a check to the machines and scenes for which `wanted(spec, scene)` is true."""
 
     def of(check: K) -> K:
         def each(spec: Any, scene: Any) -> Iterable[AnyCheck]:
@@ -140,25 +139,25 @@ def only(wanted: Callable[[Any, Any], bool]) -> Callable[[K], K]:
 
 
 def at(*path: str | int) -> Callable[[MachineSpec, Scene], KeyPath]:
-    """A key that is the same for every machine."""
+    """The same key for every machine."""
     return lambda spec, scene: path
 
 
 def blames(*path: str | int) -> Callable[[MachineSpec, Scene, Mapping[str, Estimate]], KeyPath]:
-    """A key that governs, whatever the loads are."""
+    """A governing key independent of the loads."""
     return lambda spec, scene, loads: path
 
 
 def needs(*paths: KeyPath) -> Callable[[MachineSpec, Scene], tuple[KeyPath, ...]]:
-    """Keys without which there is nothing to hold a load against."""
+    """Keys that the limit requires."""
     return lambda spec, scene: paths
 
 
 def no_needs(spec: MachineSpec, scene: Scene) -> tuple[KeyPath, ...]:
-    """For a check that is always made."""
+    """For a check without required keys."""
     return ()
 
 
 def no_repair(spec: MachineSpec, scene: Scene) -> KeyPath:
-    """For a check that no single key can make pass."""
+    """For a check that no single key can repair."""
     return ()

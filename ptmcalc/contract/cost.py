@@ -1,4 +1,4 @@
-"""What accuracy costs: every setting of every solver of a scene with its seconds, its bar and its true error."""
+"""Cost of accuracy: every setting of every solver of a scene with its seconds, error bar and true error."""
 
 import math
 from collections.abc import Iterable
@@ -9,18 +9,18 @@ _ROUNDING = 1e-12
 
 
 class Role(StrEnum):
-    """What a setting is for."""
+    """Purpose of a setting."""
 
     LADDER = "ladder"
-    """the check may run it"""
+    """a check may run it"""
     FORMULA = "formula"
-    """a textbook formula: shown beside, never decides"""
+    """a textbook formula: shown for comparison, never decides"""
     WITNESS = "witness"
-    """of another method, only to hold the others against"""
+    """reference method, used for comparison only"""
 
 
 class Outcome(StrEnum):
-    """What became of a setting."""
+    """Outcome of a setting."""
 
     MEASURED = "measured"
     FAILED = "failed"
@@ -28,12 +28,12 @@ class Outcome(StrEnum):
 
 
 class Held(StrEnum):
-    """Whether a reported bar covered the true error."""
+    """Whether a reported error bar covers the true error."""
 
     YES = "yes"
     NO = "no"
     OPEN = "open"
-    """the reference lies beside the bar, and its own bar is wider than that: nobody can say"""
+    """the reference is outside the bar, and its own bar is wider than the distance: undetermined"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ class LoadCost:
 
     @property
     def at_most(self) -> float | None:
-        """The largest the true error can be."""
+        """Upper bound of the true error."""
         return None if self.error is None or self.resolution is None else self.error + self.resolution
 
     @property
@@ -90,43 +90,44 @@ class Setting:
 
     @property
     def name(self) -> str:
-        """The solver with its refinement, and what tells two sets of effects apart."""
+        """The solver with its refinement, and a mark that distinguishes two sets of effects."""
         return f"{self.solver} {self.level}{self.variant}"
 
     @property
     def bar(self) -> float | None:
-        """The widest bar of a governing load: infinite where one has no bound, None where there is no load."""
+        """The widest error bar of a governing load: infinite if one has no bound, None if there is no load."""
         bars = [math.inf if load.bar is None else load.bar for load in self.loads]
         return max(bars, default=None)
 
     @property
     def worst(self) -> LoadCost | None:
-        """The load whose true error is the largest, of those that have a reference."""
+        """The load with the largest true error, of those with a reference."""
         compared = [load for load in self.loads if load.error is not None]
         return max(compared, key=lambda load: (load.at_most or 0.0, load.error or 0.0), default=None)
 
     @property
     def error_at_most(self) -> float | None:
-        """The largest the true error of any governing load can be; None unless each has a reference."""
+        """Upper bound of the true error of all governing loads; None unless each has a reference."""
         bounds = [load.at_most for load in self.loads]
         return None if None in bounds else max((bound for bound in bounds if bound is not None), default=None)
 
     @property
     def held(self) -> Held | None:
-        """Whether all bars covered the errors: the worst of the loads. A formula without a bar says nothing of it."""
+        """Whether all error bars cover the errors: the worst of the loads. A formula without an error bar has no
+        result."""
         said = [load.held for load in self.loads if load.held is not None]
         return next((one for one in (Held.NO, Held.OPEN, Held.YES) if one in said), None)
 
     @property
     def references(self) -> tuple[str, ...]:
-        """The settings it was held against, that of the worst load first."""
+        """The settings used as references, that of the worst load first."""
         first = (self.worst.reference,) if self.worst else ()
         return tuple(dict.fromkeys((*first, *(load.reference for load in self.loads if load.reference))))
 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The cheapest settings that reach a target: an accuracy of all governing loads, or a verdict of every check."""
+    """The fastest settings that reach a target: an accuracy of all governing loads, or a verdict of every check."""
 
     scene: str
     target: str
@@ -134,7 +135,7 @@ class Choice:
     settings: tuple[str, ...]
     seconds: float | None
     missing: tuple[str, ...] = ()
-    """loads or checks that no setting brings so far"""
+    """loads or checks for which no setting reaches the target"""
 
     @property
     def reached(self) -> bool:
@@ -144,7 +145,7 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class CostReport:
-    """All settings of one machine, what to choose, and one sentence."""
+    """All settings of one machine, the recommended choice, and a summary sentence."""
 
     path: str
     kind: str
@@ -153,7 +154,7 @@ class CostReport:
     closest: tuple[str, float] | None
     """code and relative margin of the check that is nearest to its limit"""
     seconds: float = 0.0
-    """what measuring all of it took, repetitions included"""
+    """total measuring time, repetitions included"""
 
     @property
     def scenes(self) -> tuple[str, ...]:
@@ -170,10 +171,10 @@ class CostReport:
 
     @property
     def targets(self) -> tuple[str, ...]:
-        """What was aimed at."""
+        """The target."""
         return tuple(dict.fromkeys(one.target for one in self.choices))
 
 
 def total(parts: Iterable[float | None]) -> float:
-    """A sum of seconds, of which those that are not known count nothing."""
+    """A sum of seconds; unknown values count as zero."""
     return sum(part for part in parts if part is not None)

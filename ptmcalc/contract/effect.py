@@ -1,4 +1,4 @@
-"""An effect: an ingredient of the physics that a scene may or may not call for."""
+"""An effect: a physical influence that a scene may require."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ C = TypeVar("C", bound=Scene)
 
 @dataclass(frozen=True, slots=True)
 class Criterion:
-    """Does something matter here? One dimensionless number against a threshold, in one sentence."""
+    """Criterion of significance: one dimensionless number with a threshold and a meaning."""
 
     symbol: str
     value: float
@@ -35,7 +35,7 @@ class Criterion:
 
 
 class EffectState(StrEnum):
-    """What became of an effect in a scene."""
+    """State of an effect in a scene."""
 
     SKIPPED = "skipped"
     BOUNDED = "bounded"
@@ -44,13 +44,13 @@ class EffectState(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Effect(Generic[S, C]):
-    """One ingredient of the physics.
+    """One physical influence.
 
-    `criterion` says whether the scene calls for it, or None when an input it needs is not given.
-    `bound` is the most that leaving it out can have changed each load of a run that found `loads`: an offset to
-    the value, nothing for a load it does not name. It sees the run's own bars and those of the effects before it.
-    `part_of` names the effect it lives inside: a run without that one needs only that one's bound.
-    `calibrated` says that the bound rests on a seeded sample, not on a derivation alone.
+    `criterion` states whether the scene requires it, or None if a required input is not given. `bound` is the maximum
+    change of each load of a run with the results `loads` if the effect is neglected: an offset to the value, nothing
+    for a load it does not name. It sees the run's own bars and those of the effects before it. `part_of` names the
+    effect it lives inside: a run without that one needs only that one's bound. `calibrated` says that the bound rests
+    on a seeded sample, not on a derivation alone.
     """
 
     name: str
@@ -62,7 +62,7 @@ class Effect(Generic[S, C]):
     calibrated: bool = False
 
     def applies_to(self, scene: Scene) -> bool:
-        """Whether a scene of this type can call for the effect at all."""
+        """True if a scene of this type can require the effect."""
         return type(scene) in self.scenes
 
 

@@ -1,4 +1,4 @@
-"""What `explain` adds to a check, an effect, a solver or a load: its symbols, and an example that runs.
+"""Additions of `explain` to a check, an effect, a solver or a load: symbols and a runnable example.
 
 Both are files in the folder of a kind, read only on request. `symbols.txt` is written by hand. A line
 `S: tension of the belt [N]` is followed by the names of the pages on which the letter has that meaning, set in by four
@@ -17,7 +17,7 @@ _LINE = re.compile(r"([^\s:]+): (.+) \[([^\[\]\s]+)\]")
 
 @dataclass(frozen=True, slots=True)
 class Symbol:
-    """A letter of a formula: what it means, and its unit."""
+    """A symbol of a formula: meaning and unit."""
 
     meaning: str
     unit: str
@@ -25,9 +25,9 @@ class Symbol:
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """A line for a shell, in the top folder of the project, and what the program says of the matter then.
+    """A shell command for the top folder of the project, and the relevant output.
 
-    `file` is the text of `design.yaml` where the command reads one.
+    `file` is the text of `design.yaml` if the command reads one.
     """
 
     command: str

@@ -1,7 +1,7 @@
-"""A figure: what of a scene people would rather look at than read.
+"""A figure: time histories or curves of a scene.
 
-A kind declares its figures; the engine fills them with courses of loads, a report draws them. Nobody but the kind knows
-what machine they are of.
+A kind declares its figures; the engine fills them with histories of loads, a report draws them. Only the kind knows the
+machine.
 """
 
 from collections.abc import Callable, Mapping
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """A load, or a family of loads, whose course is drawn. `also` are loads that are told of the same course: its
+    """A load, or a family of loads, with a plotted history. `also` are loads that are told of the same course: its
     smallest value beside its largest. `title` is what the course is called where the title of its load is not that."""
 
     load: str
@@ -28,7 +28,7 @@ class Course:
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """A stretch of what is drawn against, in SI units; a forbidden one is where a machine should not be."""
+    """An interval of the abscissa, in SI units; a forbidden one is to be avoided in operation."""
 
     low: float
     high: float
@@ -38,7 +38,7 @@ class Band:
 
 @dataclass(frozen=True, slots=True)
 class Threshold:
-    """A value of what is drawn that something is held against."""
+    """A limit value of the ordinate."""
 
     value: float
     title: str
@@ -46,7 +46,7 @@ class Threshold:
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """A value of what is drawn against at which something happens: a time, a place, a speed."""
+    """A value of the abscissa with an event: a time, a position, a speed."""
 
     at: float
     title: str
@@ -54,7 +54,7 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """A point that is marked, and what it says."""
+    """A marked point with its text."""
 
     at: float
     value: float
@@ -63,7 +63,7 @@ class Spot:
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """What is drawn besides the courses themselves."""
+    """Marks drawn in addition to the histories."""
 
     bands: tuple[Band, ...] = ()
     thresholds: tuple[Threshold, ...] = ()
@@ -85,10 +85,10 @@ class Figure:
     scenes: tuple[str, ...]
     courses: tuple[Course, ...]
     upright: str
-    """what the axis of the values is called"""
+    """title of the ordinate"""
     over: Quantity = TIME
     across: str = "time"
-    """what the other axis is called"""
+    """title of the abscissa"""
     moments: tuple[tuple[str, str], ...] = ()
     marks: "Callable[[Any, SceneReport], Marks] | None" = None
 

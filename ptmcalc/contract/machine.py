@@ -1,4 +1,4 @@
-"""The manifest of a machine kind: everything the rest of the house needs to know of it."""
+"""The manifest of a machine kind: the interface of a kind to the rest of the program."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -25,9 +25,9 @@ Piece = TypeVar("Piece")
 
 @dataclass(frozen=True, slots=True)
 class Assumption(Generic[S]):
-    """A value that is filled in where the file does not write it, with the interval it may really lie in.
+    """A value that is filled in if the file does not give it, with the interval that contains the actual value.
 
-    `value` is None where the machine does not need it. Verdicts are tried at both ends of `interval`.
+    `value` is None if the machine does not require it. Verdicts are evaluated at both ends of `interval`.
     """
 
     path: KeyPath
@@ -36,18 +36,18 @@ class Assumption(Generic[S]):
     interval: Callable[[S], Interval]
     source: str
     scenes: frozenset[type[Scene]] = frozenset()
-    """types of the scenes that read it; empty for all"""
+    """types of the scenes that use it; empty for all"""
     loads: frozenset[str] = frozenset()
     """loads that depend on it; empty for all"""
 
 
 def nothing_to_say(spec: MachineSpec) -> Iterable[Finding]:
-    """A kind that compares no values of the file with each other."""
+    """For a kind without comparisons between values of the file."""
     return ()
 
 
 def no_witnesses() -> tuple[AnySolver, ...]:
-    """For a kind without a second method."""
+    """For a kind without reference methods."""
     return ()
 
 
@@ -70,14 +70,14 @@ class MachineKind(Generic[S]):
     starting: Callable[[], str]
     assumptions: tuple[Assumption[S], ...] = ()
     relations: tuple[Relation, ...] = ()
-    """relations between the loads of a scene, against which every report is tested"""
+    """relations between the loads of a scene; every report is verified against them"""
 
     inspect: Callable[[S], Iterable[Finding]] = nothing_to_say
     tables: Callable[[S, Sequence[SceneReport]], Iterable[TableReport]] | None = None
-    """for a kind that has tables of its own: what they say of the scenes of a machine"""
+    """for a kind with tables of its own: their contents for the scenes of a machine"""
 
     figures: tuple[Figure, ...] = ()
-    """what a report with pictures shows of its scenes"""
+    """figures of the scenes"""
 
     parts: Callable[[S], Iterable[LoadInfo]] | None = None
     """for a kind whose loads are families: the loads of the parts of a machine, in the order of `loads`"""
@@ -107,12 +107,12 @@ class MachineKind(Generic[S]):
 
     @property
     def template(self) -> str:
-        """The commented design file to start from."""
+        """The commented template of a design file."""
         return self.starting()
 
     @property
     def witnesses(self) -> tuple[AnySolver, ...]:
-        """Solvers of another method that no plan offers."""
+        """Reference methods, which no plan contains."""
         return self.seconding()
 
     @property
@@ -121,7 +121,7 @@ class MachineKind(Generic[S]):
         return f"{self.name} {self.type}".strip()
 
     def assumptions_of(self, spec: S) -> Iterable[Assumption[S]]:
-        """What may be filled in for a machine."""
+        """The possible assumptions of a machine."""
         return self.assumed(spec) if self.assumed else self.assumptions
 
     def loads_of(self, spec: S) -> tuple[LoadInfo, ...]:
@@ -129,7 +129,7 @@ class MachineKind(Generic[S]):
         return _loads(self.parts, spec) if self.parts else self.loads
 
     def tables_of(self, spec: S, scenes: Sequence[SceneReport]) -> tuple[TableReport, ...]:
-        """The tables of its own that a kind has of a machine."""
+        """The tables that a kind adds to the report of a machine."""
         return tuple(self.tables(spec, scenes)) if self.tables else ()
 
     def load_info(self, spec: S, name: str) -> LoadInfo:

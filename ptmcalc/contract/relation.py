@@ -1,4 +1,4 @@
-"""A relation between loads of one scene that holds for every machine, such as "largest anywhere >= at the pulley".
+"""A relation between loads of one scene that applies to every machine, such as "maximum anywhere >= at the pulley".
 
 Every report is tested against the relations of its kind. Intervals are intersected where a relation allows it, which
 narrows error bars; loads that contradict each other make every check that reads them undecided.

@@ -1,4 +1,4 @@
-"""What is said about a file, before anyone decides how to print it."""
+"""The results of a file, independent of the output format."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -19,7 +19,7 @@ _INVISIBLE = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A key and where it stands (or, when the file does not write it, where its parent does)."""
+    """A key and its position (or the position of its parent if the file does not give the key)."""
 
     path: KeyPath
     span: Span
@@ -27,7 +27,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class FormulaValue:
-    """The textbook value beside the reported one; `ratio` is reported over textbook."""
+    """The textbook value next to the reported one; `ratio` is reported value / textbook value."""
 
     name: str
     value: float
@@ -36,7 +36,7 @@ class FormulaValue:
 
 @dataclass(frozen=True, slots=True)
 class LoadReport:
-    """One load of a scene with its error bar and where it comes from."""
+    """One load of a scene with its error bar and its origin."""
 
     info: LoadInfo
     estimate: Estimate
@@ -48,11 +48,11 @@ class LoadReport:
     history: History | None = None
     note: str = ""
     course: tuple[float, ...] = ()
-    """the shape of its history in a few numbers"""
+    """its history in a few numbers"""
 
     @property
     def formula(self) -> FormulaValue | None:
-        """The textbook value to hold the load against: the last of several."""
+        """The textbook value for comparison: the last of several."""
         return self.formulas[-1] if self.formulas else None
 
 
@@ -69,13 +69,13 @@ class Change:
 
     @property
     def visible(self) -> bool:
-        """Whether it is more than rounding."""
+        """True if it exceeds the rounding level."""
         return abs(self.relative) >= _INVISIBLE
 
 
 @dataclass(frozen=True, slots=True)
 class EffectReport:
-    """A line of the effects ledger."""
+    """A line of the list of effects."""
 
     name: str
     title: str
@@ -88,7 +88,7 @@ class EffectReport:
 
 @dataclass(frozen=True, slots=True)
 class NextSolver:
-    """The next rung of the ladder and its price."""
+    """The next planned run and its predicted time."""
 
     name: str
     predicted_seconds: float
@@ -109,7 +109,7 @@ class SolverReport:
 
 @dataclass(frozen=True, slots=True)
 class Repair:
-    """The value of a key at which the check just passes; `other` is the one at the far edge of a forbidden band."""
+    """The value of a key at which the check just passes; `other` is that at the opposite edge of a forbidden band."""
 
     path: KeyPath
     value: float
@@ -132,21 +132,21 @@ class Judgement:
     blame: Place
     element: str = ""
     meaning: str = ""
-    """what a failed check means; empty for other verdicts"""
+    """meaning of a failed check; empty for other verdicts"""
     reason: str = ""
     without: tuple[str, ...] = ()
     repair: Repair | None = None
     tried: str = ""
-    """what was tried where no value passes"""
+    """tried values if no value passes"""
     loads: tuple[str, ...] = ()
-    """the loads it read"""
+    """the loads that the check used"""
     baseline: bool = False
-    """whether a baseline waives it, not the file"""
+    """True if a baseline waives it, not the file"""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneReport:
-    """Everything found out about one scene."""
+    """All results of one scene."""
 
     name: str
     type: str
@@ -157,7 +157,7 @@ class SceneReport:
     health: Mapping[str, float]
     events: tuple[Event, ...] = ()
     figures: tuple[FigureReport, ...] = ()
-    """what there is to look at, where somebody asked for it"""
+    """figures, if requested"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +169,7 @@ class Amount:
 
 
 Cell = str | Amount | tuple[str, ...]
-"""What stands in a table of a machine: words, a number, or a list of words; empty where there is nothing to say."""
+"""Cell of a table of a machine: words, a number, or a list of words; may be empty."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,7 +194,7 @@ class TableReport:
 
 @dataclass(frozen=True, slots=True)
 class AssumedReport:
-    """A value the file did not write and a default filled in."""
+    """An assumed value that the file does not give."""
 
     path: KeyPath
     value: float
@@ -202,7 +202,7 @@ class AssumedReport:
     interval: Interval
     source: str
     scenes: frozenset[str] = frozenset()
-    """types of the scenes that read it; empty for all"""
+    """types of the scenes that use it; empty for all"""
     loads: frozenset[str] = frozenset()
     """loads that depend on it; empty for all"""
 
@@ -218,7 +218,7 @@ class AssumedReport:
 
 @dataclass(frozen=True, slots=True)
 class FileReport:
-    """Everything said about one file."""
+    """All results of one file."""
 
     path: str
     kind: str = ""
@@ -228,11 +228,11 @@ class FileReport:
     scenes: tuple[SceneReport, ...] = ()
     tables: tuple[TableReport, ...] = ()
     ignored: int = 0
-    """findings and verdicts that the run was told to leave out"""
+    """findings and verdicts that the run excluded"""
     ignored_checks: int = 0
     """the verdicts among them"""
     computed: bool = True
-    """whether checks were to be made: not where a file is only validated"""
+    """False if the file is only validated"""
 
     @property
     def valid(self) -> bool:
@@ -265,14 +265,14 @@ class FileReport:
 
 @dataclass(frozen=True, slots=True)
 class Tally:
-    """What a summary and an exit status need to know of one file."""
+    """Data of one file for summary and exit status."""
 
     verdict: str
     counts: Mapping[str, int]
     loudest: str = ""
-    """the severest of what is said besides verdicts; empty where nothing is said"""
+    """highest severity of the findings; empty without findings"""
     broken: bool = False
-    """whether it is our own program that failed"""
+    """True for an internal error of ptmcalc"""
     unchosen: bool = False
     """whether it has checks, and the run was told to leave out all of them"""
 
@@ -307,11 +307,11 @@ def count(reports: Iterable[FileReport]) -> dict[str, int]:
 
 
 def status_of(tallies: Iterable[Tally]) -> int:
-    """0 all pass, 1 a check failed, 2 an invalid file, 3 undecided, 4 our own bug; the worst wins in the order 4, 2,
-    1, 3.
+    """0 all pass, 1 a check failed, 2 an invalid file, 3 undecided, 4 internal error; the most severe applies, in the
+    order 4, 2, 1, 3.
 
-    A file without a check among those chosen decides nothing where another one has some: `--select CNV` over machines
-    of several kinds. A run in which nothing was checked is undecided.
+    A file without any selected check does not count if another file has some: `--select CNV` over machines of several
+    kinds. A run in which nothing was checked is undecided.
     """
     found = {"broken" if one.broken else "unchosen" if one.unchosen else one.verdict for one in tallies}
     worst = (("broken", 4), ("invalid", 2), ("fail", 1), ("undecided", 3), ("pass", 0))

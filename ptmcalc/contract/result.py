@@ -1,4 +1,4 @@
-"""What a solver hands back."""
+"""Results of a solver."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -11,19 +11,19 @@ from ptmcalc.base.units import TIME, Quantity
 
 @dataclass(frozen=True, slots=True)
 class LoadInfo:
-    """A load a kind can report: its name in JSON, its title in a table, its quantity.
+    """A load of a kind: name in JSON, title in tables, quantity.
 
-    A load that a machine has once for each of its parts is a family: `torque_peak` stands for `torque_peak[shaft]`.
+    A load that occurs once for each part of a machine is a family: `torque_peak` stands for `torque_peak[shaft]`.
     """
 
     name: str
     title: str
     quantity: Quantity
     headline: bool = True
-    """whether the whole table shows it; the JSON always does"""
+    """True if the verbose table shows it; the JSON always does"""
 
     governing: bool = False
-    """whether a designer looks at it first: the short table shows these, and those that a check of the file reads"""
+    """True for a governing load: the short table shows these, and those that a check of the file uses"""
 
     def of(self, element: str, quantity: Quantity | None = None) -> "LoadInfo":
         """The load of one part."""
@@ -44,7 +44,7 @@ def family(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A load as a solver found it: the number with its bar, where and when it occurs, and a remark on it."""
+    """A load computed by a solver: value with error bar, place and time of occurrence, remark."""
 
     estimate: Estimate
     at: Mapping[str, float] = field(default_factory=dict)
@@ -53,14 +53,14 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Something a solver has to say about its own numbers, or a kind about its input."""
+    """A message of a solver about its results, or of a kind about its input."""
 
     code: str
     message: str
     path: tuple[str | int, ...] = ()
     hint: str = ""
     other: tuple[str | int, ...] = ()
-    """a second key it is about: its line is named too"""
+    """a second key of the message: its line is also reported"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class Failure:
     """A failure that a run found, such as a load that lowers although the motor lifts.
 
     The check with this code fails in the scene whatever its number, with `message` as the reason. A solver reports it
-    only where its own error bars leave no doubt. `path` is the key that governs, `hint` the cure.
+    only if its error bars leave no doubt. `path` is the governing key, `hint` the remedy.
     """
 
     check: str
@@ -137,6 +137,6 @@ class Result:
     failures: tuple[Failure, ...] = ()
     """failures of the machine that the run found: a check fails by each of them"""
     beyond: Mapping[str, Interval] = field(default_factory=dict)
-    """offsets by which loads can still change after the window, where the motion is not steady at its end"""
+    """possible changes of loads after the window, if the motion is not steady at its end"""
     open_end: str = ""
     """with `beyond`, the state at the end of the window: "belt at 1.43 of 3 m/s" """

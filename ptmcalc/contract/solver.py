@@ -1,4 +1,4 @@
-"""A solver: one way to compute a scene, and the effects it can carry, all at once."""
+"""A solver: one method to compute a scene, with the effects that it can simulate together."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,13 +24,13 @@ def always_valid(spec: object, scene: object) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Solver(Generic[S, C]):
-    """One way to compute a scene.
+    """One method to compute a scene.
 
-    `run(spec, scene, carried, level)` computes with the effects `carried`, at refinement `level` (0 is the
-    coarsest); `cost` predicts its seconds. `valid` gives the criterion that must not be exceeded.
-    `always` names effects that are in every run of it, asked for or not: it is not used where one is excluded.
-    A solver that does not decide is a textbook formula: shown beside the reported load, never judged.
-    `method` names the code it computes by where several solvers share one: they are no witnesses of each other.
+    `run(spec, scene, carried, level)` simulates the effects `carried` at refinement `level` (0 is the coarsest); `cost`
+    predicts its seconds. `valid` gives the criterion that must not be exceeded. `always` names effects that are in
+    every run of it, asked for or not: it is not used where one is excluded. A solver that does not decide is a textbook
+    formula: shown beside the reported load, never judged. `method` names the code it computes by where several solvers
+    share one: they are no witnesses of each other.
     """
 
     name: str
@@ -48,15 +48,15 @@ class Solver(Generic[S, C]):
     decides: bool = True
     method: str = ""
     by_lanes: bool = False
-    """whether it takes machines whose numbers are many at once (`numerics.lanes`)"""
+    """True if it computes many machines at once (`numerics.lanes`)"""
 
     @property
     def way(self) -> str:
-        """The method it computes by; that of its own where no other solver shares it."""
+        """The method of the solver; its own name if no other solver shares the method."""
         return self.method or self.name
 
     def usable_for(self, spec: S, scene: C) -> bool:
-        """Whether it handles this type of scene and the machine lies in its range."""
+        """True if it computes this type of scene and the machine is within its range."""
         if type(scene) not in self.scenes:
             return False
         criterion = self.valid(spec, scene)

@@ -1,4 +1,4 @@
-"""What a study of many variants of one machine finds: of each check its verdict and margin at every point."""
+"""Results of a study of many variants of one machine: verdict and margin of each check at every point."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -16,14 +16,14 @@ FloatArray = NDArray[np.float64]
 
 
 class Said(IntEnum):
-    """What a check says at a point."""
+    """Verdict of a check at a point."""
 
     PASS = 0
     FAIL = 1
     UNDECIDED = 2
     NOT_CHECKED = 3
     NOT_COMPUTED = 4
-    """beyond the budget, or the machine of that point is none"""
+    """beyond the budget, or an invalid machine at that point"""
 
     @property
     def word(self) -> str:
@@ -64,7 +64,7 @@ class Track:
 
     @property
     def margin(self) -> FloatArray:
-        """Signed distance of the value from the limit; positive on the sound side."""
+        """Signed distance of the value from the limit; positive on the permissible side."""
         with np.errstate(invalid="ignore"):
             return self.value - self.limit if self.sense is Sense.AT_LEAST else self.limit - self.value
 

@@ -1,4 +1,4 @@
-"""A topic of a kind of machine: one question of an engineer, with everything that answers it."""
+"""A topic of a kind of machine: one question of an engineer with its loads, effects, solvers and checks."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from ptmcalc.contract.solver import AnySolver
 
 @dataclass(frozen=True, slots=True)
 class Topic(Generic[S]):
-    """What a topic adds to its kind. A load stands in the topic that introduces it; others may return it too.
+    """Contents of a topic. A load belongs to the topic that introduces it; other topics may also return it.
 
     `parts` expands the families among its loads for one machine, in their order.
     """
@@ -21,7 +21,7 @@ class Topic(Generic[S]):
     loads: tuple[LoadInfo, ...] = ()
     effects: tuple[AnyEffect, ...] = ()
     solvers: tuple[AnySolver, ...] = ()
-    """from the cheapest to the most complete"""
+    """from the fastest to the most complete"""
     checks: tuple[AnyCheck, ...] = ()
     parts: Callable[[S], Iterable[LoadInfo]] | None = None
 

@@ -111,7 +111,7 @@ def read_baseline(path: Path) -> Known:
     except OSError as error:
         raise UsageError(f"the baseline `{path}` cannot be read: {error.strerror}", hint) from None
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        raise UsageError(f"`{path}` is no baseline of ptmcalc", hint) from None
+        raise UsageError(f"`{path}` is not a baseline of ptmcalc", hint) from None
     return found
 
 

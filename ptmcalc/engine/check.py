@@ -1,4 +1,4 @@
-"""One design file from its bytes to its report."""
+"""The check of one design file, from its text to its report."""
 
 import math
 import os
@@ -54,31 +54,31 @@ changes and lengthen the report."""
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """What the command line asks besides the files: some scenes, an accuracy, forced effects, the predicted seconds
-    that settling a scene may take at most, or looking for a repair, and whether repairs are looked for at all."""
+    """Options of the command line: scenes, accuracy, forced effects, the maximum predicted seconds of a scene or of the
+    search for a repair, and whether repairs are searched for."""
 
     scenes: tuple[str, ...] = ()
     accuracy: str = ""
     effects: Mapping[str, str] = field(default_factory=dict)
     histories: bool = False
     courses: bool = False
-    """whether reports show the shapes of histories"""
+    """True if reports show histories in short form"""
     figures: bool = False
-    """whether there is somebody who looks at pictures"""
+    """True if figures are requested"""
     ledger: bool = False
     """whether a run without each effect near its threshold tells what it changes"""
     budget: float = WORK_BUDGET
     repairs: bool = True
     counting: Choice = ANY
-    """the checks that count; for others no repair is looked for"""
+    """the selected checks; no repair is searched for others"""
     run: bool = True
-    """whether anything is computed; else files are read and validated"""
+    """False if files are only read and validated"""
     today: date | None = None
-    """the day that waivers are held against; that of the clock when left out"""
+    """the day for waivers; default: the current day"""
 
 
 def check_paths(paths: Sequence[Path], options: Options) -> tuple[FileReport, ...]:
-    """The reports of files, in their order; of several, one that our own program breaks down on stops no other."""
+    """The reports of files, in their order; an internal error on one file does not stop the others."""
     if len(paths) == 1:
         try:
             return (check_file(paths[0], options),)
@@ -88,7 +88,7 @@ def check_paths(paths: Sequence[Path], options: Options) -> tuple[FileReport, ..
 
 
 def guarded(name: str, make: Callable[[], T]) -> T | FileReport:
-    """What is made of a file, mostly its report, or one that says our own program broke down on it.
+    """The result of a file, usually its report, or the report of an internal error.
 
     Raises:
         UsageError: the options are wrong for this file.
@@ -106,25 +106,25 @@ def guarded(name: str, make: Callable[[], T]) -> T | FileReport:
 
 
 def beyond_memory(name: str) -> FileReport:
-    """The report of a file that takes more memory than there is: nothing is known, and nothing is wrong with it."""
+    """The report of a file that requires more memory than available: it is undecided, not invalid."""
     hint = "simplify the machine or its scenes, or give the process more memory"
     reason = f"the file {NO_MEMORY}: nothing was computed"
     return FileReport(name, diagnostics=(Diagnostic("NUM103", reason, hint=hint, severity=_WARN),))
 
 
 def broken(name: str, reason: str) -> FileReport:
-    """The report of a file that our own program breaks down on."""
+    """The report of a file that causes an internal error."""
     hint = "please report it with the file and the output of the same command under PTMCALC_TRACEBACK=1"
     return FileReport(name, diagnostics=(Diagnostic(BROKEN, f"internal error: {reason}", hint=hint),))
 
 
 def check_file(path: Path, options: Options) -> FileReport:
-    """Everything there is to say about one file."""
+    """The report of one file."""
     return check(load_file(path, path.as_posix(), options.effects, options.accuracy), options)
 
 
 def planned_for(loaded: Loaded, options: Options) -> Plan | None:
-    """The plan of what is asked about a loaded file; None where nothing is to be computed.
+    """The plan of a loaded file; None if nothing is to be computed.
 
     Raises:
         UsageError: the file has not the scenes that are asked for.
@@ -135,7 +135,7 @@ def planned_for(loaded: Loaded, options: Options) -> Plan | None:
 
 
 def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> FileReport:
-    """Everything there is to say about a loaded file, by its plan where somebody has made it before."""
+    """The report of a loaded file, by its plan if available."""
     name = loaded.document.name
     if loaded.kind is None or loaded.spec is None:
         return FileReport(name, _text(loaded, "kind"), _text(loaded, "name"), loaded.diagnostics)
@@ -187,13 +187,13 @@ def _conflicts(
 
 
 def _again(options: Options, loaded: Loaded, scenes: tuple[str, ...], most: float) -> FileReport:
-    """A plain check of a changed file, without repairs of its own."""
+    """The check of a changed file, without a search for repairs."""
     plain = replace(options, histories=False, courses=False, figures=False, ledger=False, repairs=False)
     return check(loaded, replace(plain, scenes=scenes, budget=most))
 
 
 def _nothing_checked(loaded: Loaded, scenes: Sequence[SceneReport]) -> Iterator[Diagnostic]:
-    """That no check was made at all."""
+    """The finding that no check was made."""
     if any(one.verdict is not Verdict.OFF for scene in scenes for one in scene.checks):
         return
     off = {one.code for scene in scenes for one in scene.checks}
@@ -207,12 +207,13 @@ _WARN = Severity.WARNING
 
 
 def _severity(finding: Finding) -> Severity:
-    """A remark on a textbook's formula, or on a window whose loads have no bound anyway, doubts no number of ours."""
+    """Whether a finding affects computed values: a remark on a textbook formula, or on a window with unbounded loads,
+    does not."""
     return Severity.NOTE if finding.code in (*OF_TEXTBOOKS, "NUM112", "NUM113") else Severity.WARNING
 
 
 def _said(settled: list[Settled]) -> Iterator[tuple[Finding, str]]:
-    """What was found on the way, once each, with the scenes it is about where the file has several."""
+    """The findings of all scenes, each once, with its scenes if the file has several."""
     about: dict[Finding, dict[str, None]] = {}
     for one in settled:
         for finding in one.said:
@@ -242,14 +243,14 @@ def chosen_scenes(spec: MachineSpec, names: tuple[str, ...]) -> list[Scene] | No
     scenes = {scene.label: scene for scene in spec.all_scenes}
     for name in names:
         if name not in scenes:
-            raise UsageError(f"no scene is called `{name}`", f"scenes: {', '.join(scenes)}")
+            raise UsageError(f"unknown scene `{name}`", f"scenes: {', '.join(scenes)}")
     return [scenes[name] for name in names]
 
 
 Key = tuple[str, str, str]
 """Scene, code of a check, part of the machine."""
 Flips = Mapping[Key, tuple[AssumedReport, float, Verdict]]
-"""For a check: the assumed value that changes its verdict, at which end, and to what."""
+"""For a check: the assumed value that changes its verdict, the end of the interval, and the new verdict."""
 
 
 def _flips(
@@ -260,10 +261,10 @@ def _flips(
     assumed: Iterable[AssumedReport],
     purse: FilePurse,
 ) -> Flips:
-    """Verdicts that change when an assumed value goes to an end of its interval.
+    """Verdicts that change if an assumed value is at an end of its interval.
 
-    A check that passes as it stands passes only if it does at both ends; one that fails does so unless it passes at an
-    end. One that is open as it stands, or that an end before has changed, is not settled again.
+    A passing check passes only if it does so at both ends; a failing check fails unless it passes at an end. An open
+    check, or one already changed by an earlier end, is not evaluated again.
     """
     rulings = dict(_by_key(made, settled))
     base = {key: ruling.verdict for key, ruling in rulings.items()}
@@ -288,7 +289,7 @@ def _flips(
 
 
 def _turns(verdict: Verdict, at_end: Verdict) -> bool:
-    """Whether a verdict does not stand where an assumed value is at its end: a fail only turns into a pass."""
+    """Whether a verdict changes with an assumed value at its end: a fail can only change into a pass."""
     return at_end is Verdict.PASS if verdict is Verdict.FAIL else at_end is not verdict
 
 
@@ -300,7 +301,7 @@ def _by_key(made: Plan, settled: list[Settled]) -> Iterator[tuple[Key, Ruling]]:
 
 @dataclass(frozen=True, slots=True)
 class _Assembly:
-    """Puts the report of one settled scene together."""
+    """Assemble the report of one scene."""
 
     loaded: Loaded
     kind: AnyKind
@@ -346,7 +347,7 @@ class _Assembly:
             )
 
     def _change(self, name: str) -> Change | None:
-        """The load of a check that leaving the effect out changes most; one whose change is clear goes first."""
+        """The load of a check with the largest change if the effect is neglected; clear changes take precedence."""
         from ptmcalc.engine.sensitivity import without
 
         pair = without(self.settled, self.spec, name)
@@ -372,7 +373,7 @@ class _Assembly:
             yield _solver(run, False, None)
 
     def _next(self) -> NextSolver | None:
-        """The cheapest run that would carry more or compute finer than all that ran."""
+        """The fastest run with more effects or a finer level than all completed runs."""
         ran = [(run.rung.solver.name, run.rung.carried, run.rung.level) for run in self.settled.runs]
         most = max((len(carried) for _, carried, _ in ran), default=0)
         finest = max((level for _, carried, level in ran if len(carried) == most), default=0)
@@ -473,11 +474,11 @@ def _state(planned: PlannedEffect, carried: frozenset[str]) -> EffectState:
 
 
 def _note(planned: PlannedEffect, carried: frozenset[str]) -> str:
-    """What the number does not say: who decided, what is missing, what the bound of an effect left out rests on."""
+    """Reason of the state: forced by the file, missing input, or calibrated bound."""
     if planned.forced_off:
         return "forced off by the file"
     if planned.criterion is None:
-        return "an input it needs is not given: loads are those without it"
+        return "a required input is not given: the loads exclude this effect"
     notes = ["forced on by the file"] if planned.forced else []
     if planned.effect.calibrated and planned.effect.part_of in carried and planned.effect.name not in carried:
         notes.append("its bound is calibrated")

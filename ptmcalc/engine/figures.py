@@ -66,7 +66,7 @@ def _of_figure(
             for solver, known in textbooks.items():
                 if _fits(history := known.get(name), figure):
                     told = () if own else tuple(_told(scene, course, load, history))
-                    _join(groups, Curve(f"{title}, by the textbook: {solver}", thinned(history), told))
+                    _join(groups, Curve(f"{title}, textbook: {solver}", thinned(history), told))
     words = figure.name, figure.title, figure.upright, figure.across
     if not groups:
         yield FigureReport(*words, missing=_why(figure, scene))
@@ -147,11 +147,11 @@ def _why(figure: Figure, scene: SceneReport) -> str:
     """Why there is nothing to draw."""
     found = [load for course in figure.courses for load in _members(scene, course.load)]
     if not found:
-        return "None of the loads it would show was found in this scene."
+        return "None of the loads of this figure was computed in this scene."
     levels = {one.name: one.fidelity for one in scene.solvers}
     by = dict.fromkeys((load.solver, levels.get(load.solver, "")) for load in found)
     solvers = ", ".join(f"{name} ({level})" if level else name for name, level in by)
-    return f"The numbers are there, their course is not: {solvers} decided them and follows none over {figure.across}."
+    return f"The values exist, their curve does not: {solvers} computed them without a curve over {figure.across}."
 
 
 def _with_loads(marks: Marks, figure: Figure, scene: SceneReport, curves: Sequence[Curve]) -> Marks:

@@ -159,7 +159,7 @@ def part(files: Sequence[Path], text: str) -> tuple[Path, ...]:
     """
     index, separator, number = text.partition("/")
     if not separator or not (index.isdecimal() and number.isdecimal()) or not 1 <= int(index) <= int(number):
-        raise UsageError(f"`--shard {text}` is no part of a run", "write i/n with i from 1 to n, e.g. --shard 1/4")
+        raise UsageError(f"`--shard {text}` is not a part of a run", "write i/n with i from 1 to n, e.g. --shard 1/4")
     return tuple(files[int(index) - 1 :: int(number)])
 
 

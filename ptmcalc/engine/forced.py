@@ -42,7 +42,7 @@ def why_not(kind: AnyKind, spec: MachineSpec, scene: ScenePlan, planned: Planned
     if any(name in rung.carried for rung in scene.rungs):
         return ""
     if planned.criterion is None:
-        return "an input that it needs is not given"
+        return "a required input is not given"
     whole = planned.effect.part_of
     if whole and whole in scene.excluded:
         return f"it is part of {quote(whole)}, forced off in the file"

@@ -207,7 +207,7 @@ def _kind_of(document: Document, data: Mapping[str, Any]) -> tuple[AnyKind | Non
         return None, []
     if not is_kind(named):
         names = kind_names()
-        reason = f"`kind` is {describe(named)}: no kind of machine is called so"
+        reason = f"`kind` is {describe(named)}: unknown machine kind"
         hint = did_you_mean(named if isinstance(named, str) else "", names, "kinds: ")
         return None, [Diagnostic("SPC102", reason, place, ("kind",), hint)]
     try:

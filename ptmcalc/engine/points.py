@@ -107,7 +107,7 @@ def varied_key(loaded: Loaded, name: str) -> tuple[VariedKey, Measure]:
     present = spec.value_at(path)
     if measure is None or isinstance(present, bool) or not isinstance(present, int | float | None):
         known = numbers_of(spec, whole=True)
-        raise UsageError(f"`{name}` is no key of a number in this file", did_you_mean(name, known, "keys: "))
+        raise UsageError(f"`{name}` is not a numerical key of this file", did_you_mean(name, known, "keys: "))
     span = loaded.document.value_span(path)
     return VariedKey(loaded.document.as_written(path), measure.quantity, present, span, whole), measure
 

@@ -102,5 +102,5 @@ def package_of(name: str) -> str:
 def _place(name: str) -> str:
     place = _ours().get(name) or _theirs().get(name)
     if place is None:
-        raise UsageError(f"no machine kind is called `{name}`", f"kinds: {', '.join(kind_names())}")
+        raise UsageError(f"unknown machine kind `{name}`", f"kinds: {', '.join(kind_names())}")
     return place

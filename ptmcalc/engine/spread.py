@@ -46,7 +46,7 @@ def tolerance_problems(model: Model, data: Mapping[str, Any], document: Document
         measure = measure_of_key(model, key_path(name), data)
         if measure is None:
             known = [dotted(one) for one in _numbers(model, (), data, data)]
-            reason = f"{quote(name)} is no key of a number in this file"
+            reason = f"{quote(name)} is not a numerical key of this file"
             hint = did_you_mean(name, known, "keys: ")
             yield Diagnostic("SPC104", reason, document.key_span(path), path, hint)
             continue
@@ -121,9 +121,11 @@ def spread_of(tolerance: Tolerance, measure: Measure, path: KeyPath) -> Said:
         found = Spread(plus=plus or 0.0, minus=minus or 0.0)
         ends = path
         if not faults and not (plus or minus):
-            faults.append((path, "SPC113", "plus and minus nothing is no tolerance", "write e.g. `plus: 5 mm`"))
+            faults.append(
+                (path, "SPC113", "a tolerance of plus and minus zero has no effect", "write e.g. `plus: 5 mm`")
+            )
     if not faults and found.low >= found.high:
-        faults.append((ends, "SPC113", "the largest value is not above the least one", "check both values"))
+        faults.append((ends, "SPC113", "the maximum is not above the minimum", "check both values"))
     return (None if faults else found), faults
 
 

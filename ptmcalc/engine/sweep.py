@@ -62,19 +62,22 @@ def axis(loaded: Loaded, text: str, *, counted: bool) -> Axis:
     parts = parts[:-1] if log else parts
     if not name.strip() or len(parts) != (3 if counted else 2) or not all(parts):
         form = f"KEY=from:to:n, e.g. `{_EXAMPLE}`" if counted else f"KEY=from:to, e.g. `{_EXAMPLE.rpartition(':')[0]}`"
-        raise UsageError(f"`--vary {text}` is no range", f"write {form}; `:{_LOG}` behind it for equal ratios")
+        raise UsageError(f"`--vary {text}` is not a range", f"write {form}; `:{_LOG}` behind it for equal ratios")
     key, measure = varied_key(loaded, name.strip())
     start, end = (_number(key, measure, part) for part in parts[:2])
     if counted and not (re.fullmatch("[0-9]{1,9}", parts[2]) and 1 <= int(parts[2]) <= MOST_POINTS):
         raise UsageError(
-            f"`--vary {text}`: `{parts[2]}` is no number of points", f"write how many, at most {MOST_POINTS}, e.g. 21"
+            f"`--vary {text}`: `{parts[2]}` is not a number of points",
+            f"write how many, at most {MOST_POINTS}, e.g. 21",
         )
     if log and min(start, end) <= 0:
         raise UsageError(f"`--vary {text}`: equal ratios need values above 0", f"leave `:{_LOG}` out")
     count = int(parts[2]) if counted else 0
     if key.whole and (log or (count > 1 and (end - start) % (count - 1))):
         hint = f"write e.g. `{key.name}={start:g}:{end:g}:{abs(int(end - start)) + 1}`"
-        raise UsageError(f"`--vary {text}`: `{key.name}` takes whole numbers, and some of these are none", hint)
+        raise UsageError(
+            f"`--vary {text}`: `{key.name}` takes whole numbers, and some of these values are not whole numbers", hint
+        )
     return Axis(key, start, end, count, log)
 
 
@@ -82,7 +85,7 @@ def _number(key: VariedKey, measure: Measure, text: str) -> float:
     try:
         number = measure.read(text)
         if key.whole and not number.is_integer():
-            raise UsageError(f"`{key.name}` takes whole numbers, and `{text}` is none", "write e.g. 2")
+            raise UsageError(f"`{key.name}` takes whole numbers, and `{text}` is not one", "write e.g. 2")
         return number
     except PydanticCustomError as error:
         context = error.context or {}
@@ -127,7 +130,7 @@ def hypercube(given: Sequence[Axis], count: int, seed: int) -> FloatArray:
     **Source** McKay, Beckman and Conover, Technometrics 21 (1979) 239.
     """
     if not 1 <= count <= MOST_POINTS:
-        raise UsageError(f"`--points {count}` is no number of points", f"write one from 1 to {MOST_POINTS}")
+        raise UsageError(f"`--points {count}` is not a number of points", f"write one from 1 to {MOST_POINTS}")
     chance = np.random.default_rng(seed)
     parts = [(chance.permutation(count) + chance.random(count)) / count for _ in given]
     return np.stack([one.drawn(part) for one, part in zip(given, parts, strict=True)], axis=1)

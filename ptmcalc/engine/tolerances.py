@@ -30,7 +30,7 @@ def drawn(loaded: Loaded, count: int, seed: int) -> Points:
         UsageError: the file has no tolerances, or one of them is about a value that it does not know or cannot have.
     """
     if not 1 <= count <= MOST_SAMPLES:
-        raise UsageError(f"`--samples {count}` is no number of samples", f"write one from 1 to {MOST_SAMPLES}")
+        raise UsageError(f"`--samples {count}` is not a number of samples", f"write one from 1 to {MOST_SAMPLES}")
     spec = loaded.spec
     assert spec is not None
     if not spec.tolerances:
@@ -74,7 +74,7 @@ def _values(
     for value in (float(values.min()), float(values.max()), float(values[np.argmin(np.abs(values))])):
         if broken := measure.broken_by(value):
             hint = "add `min:` or `max:` under `normal`, or make it narrower"
-            raise UsageError(f"{where}: some machines have values that none can have; it must be {broken}", hint)
+            raise UsageError(f"{where}: some random machines have impossible values; the value must be {broken}", hint)
     return values
 
 

@@ -37,9 +37,9 @@ def about_waivers(
         if waiver.until < today:
             path = ("waive", index, "until")
             message = f"the waiver of {waiver.check} ended with {waiver.until.isoformat()}"
-            hint = "repair the design, or renew `until` with its reason"
+            hint = "correct the design, or renew `until` with its reason"
             yield Diagnostic("SPC202", message, document.value_span(path), path, hint, Severity.WARNING)
         elif whole and waiver.check not in needed:
             path = ("waive", index, "check")
-            message = f"nothing needs the waiver of {waiver.check}: the check does not fail"
+            message = f"the waiver of {waiver.check} is unused: the check does not fail"
             yield Diagnostic("SPC203", message, document.value_span(path), path, "delete it", Severity.WARNING)

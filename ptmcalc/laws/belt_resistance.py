@@ -73,7 +73,7 @@ def loading_resistance(throughput: ArrayLike, speed: ArrayLike, feed_speed: Arra
     Args:
         throughput: Q [kg/s].
         speed: v, of the belt [m/s].
-        feed_speed: v_0, of the material along the belt when it falls on [m/s].
+        feed_speed: v_0, speed component of the material along the belt at loading [m/s].
 
     Returns:
         F_bA; negative where the material arrives faster than the belt [N].

@@ -42,7 +42,7 @@ def roller_coefficient(
         w = (mu d + 2 f)/D
 
     Args:
-        pin_friction: mu, of its bearing; 0.015 rolling, 0.08 to 0.1 plain [1].
+        pin_friction: mu, of its bearing; rolling bearings 0.015, plain bearings 0.08 to 0.1 [1].
         axle_diameter: d [m].
         lever_arm: f, of rolling, a length: old books print it in cm or mm [m].
         diameter: D, of the roller [m].

@@ -203,7 +203,7 @@ def chain_safety(breaking_load: float, tension: ArrayLike, unevenness: float) ->
 
     **Range** S >= 0.
     **Error** exact but for c.
-    **Source** chain makers' handbooks; lecture notes Kramatorsk 2007.
+    **Source** chain manufacturers' handbooks; lecture notes Kramatorsk 2007.
     """
     pull = np.asarray(tension, float) * unevenness
     return np.asarray(np.divide(breaking_load, pull, out=np.full_like(pull, np.inf), where=pull > 0))
@@ -224,7 +224,7 @@ def articulation_pressure(tension: ArrayLike, pin_diameter: float, bush_length: 
 
     **Range** a joint that bears over its whole length.
     **Error** a mean: the pressure at the ends of a bent pin is higher.
-    **Source** ISO 606:2015, bearing area; chain makers' handbooks.
+    **Source** ISO 606:2015, bearing area; chain manufacturers' handbooks.
     """
     return np.asarray(np.asarray(tension, float) / pin_diameter / bush_length)
 

@@ -130,7 +130,7 @@ def fem_lift_off_factor(structure: str, speed: float) -> float:
         psi, largest force over the weight [1].
 
     **Range** those structures; its least value belongs to FEM: a report that puts it into EN 13001-2 mixes rules.
-    **Error** none bound: it knows neither mass nor stiffness.
+    **Error** no bound: the factor depends on neither mass nor stiffness.
     **Source** FEM 1.001, booklet 2; numbers as quoted in handbooks, to be compared with the edition in force.
 
     Raises:

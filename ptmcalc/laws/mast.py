@@ -348,7 +348,7 @@ def gravity_stiffness(
         ValueError: for another attitude.
     """
     if attitude not in (HANGING, STANDING):
-        raise ValueError(f"a column is {HANGING} or {STANDING}")
+        raise ValueError(f"a mast is {HANGING} or {STANDING}")
     b = rotation_share
     alpha = 1 - b - translation_share
     slopes = tip_weight / length * (alpha * (1.2 * alpha + 2 * b) + b * b)

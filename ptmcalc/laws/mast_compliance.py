@@ -205,7 +205,7 @@ def weighted_tip_compliance(
         ValueError: for another attitude, or a weight that buckles the column.
     """
     if attitude not in (HANGING, STANDING):
-        raise ValueError(f"a column is {HANGING} or {STANDING}")
+        raise ValueError(f"a mast is {HANGING} or {STANDING}")
     z = length * math.sqrt(tip_weight / flexural_stiffness)
     bend = length / flexural_stiffness * length * length
     if attitude == HANGING:
@@ -213,12 +213,12 @@ def weighted_tip_compliance(
         turned = length / root_stiffness * tangent
         return (bend * _hanging_excess(z) + length * turned) / (1 + tip_weight * turned)
     if z >= math.pi / 2:
-        raise ValueError("the weight buckles the column")
+        raise ValueError("the weight buckles the mast")
     tangent = math.tan(z) / z if z > 0 else 1.0
     turned = length / root_stiffness * tangent
     left = 1 - tip_weight * turned
     if left <= 0:
-        raise ValueError("the weight buckles the column with its root")
+        raise ValueError("the weight buckles the mast with its root")
     return (bend * _standing_excess(z) + length * turned) / left
 
 

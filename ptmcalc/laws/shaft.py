@@ -105,7 +105,7 @@ def gear_factor(
         motor_torque: M_m [N*m].
         motor_inertia: J_m, on the motor shaft [kg*m^2].
         inertia: J, of the main shaft without the motor's side [kg*m^2].
-        ratio: u, motor speed over speed of the main shaft [1].
+        ratio: u, motor speed / main shaft speed [1].
         resistance: R, all torques against the motion on the main shaft, with w^2 J'/2 [N*m].
         efficiency: eta, from motor to main shaft [1].
         reverse_efficiency: eta_r, from main shaft to motor [1].

@@ -110,7 +110,7 @@ def geared_stop(
         crane_brake: M_c, of a closed brake on the slewing axis [N*m].
         resistance: R, friction less the wind that drives; below 0 the wind wins [N*m].
         delay: from the command until the brake acts; the motor is off [s].
-        rise_time: from then until its full torque, in a straight line [s].
+        rise_time: from then to full torque, linear rise [s].
 
     Returns:
         (time since the command [s], angle [rad]); both infinite where the brake does not stop it. A self-locking gear

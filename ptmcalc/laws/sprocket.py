@@ -86,7 +86,7 @@ def speed_ripple(teeth: int, reference: str) -> float:
 
     **Range** as `speed_extremes`; pi^2/(2 z^2) is a common approximation of both.
     **Error** exact.
-    **Source** `speed_extremes`; 1 - cos(pi/z) in ACA and chain makers' handbooks.
+    **Source** `speed_extremes`; 1 - cos(pi/z) in ACA and chain manufacturers' handbooks.
 
     Raises:
         ValueError: for another reference.

@@ -246,7 +246,7 @@ def winding_radius(
         (corners, 2) [rad] and [m].
 
     Raises:
-        ValueError: for crossovers that take more than the whole turn.
+        ValueError: for crossovers that exceed one turn.
 
     **Range** layers wound parallel, with a crossover every 1/n of a turn; the climb takes one of them.
     **Error** the true shape is round at its corners, which excites less; the arc is 60 to 70 deg on drums made for
@@ -255,7 +255,7 @@ def winding_radius(
     """
     apart = 2 * math.pi / crossovers
     if arc >= apart:
-        raise ValueError("the crossovers take more than the whole turn")
+        raise ValueError("the crossovers exceed one turn")
     high = radius + layer_step
     corners = [(0.0, radius), (arc / 2, radius), (arc / 2 + arc, high)]
     for k in range(1, max(1, math.ceil(turns * crossovers))):

@@ -12,6 +12,6 @@ def work(power: FloatArray, step: float) -> float:
 
 
 def residual(put_in: float, taken_out: float, stored: float, scale: float) -> float:
-    """What a balance leaves over, relative to the larger of the work turned over and `scale`."""
+    """What a balance leaves over, relative to the larger of the converted work and `scale`."""
     largest = max(abs(put_in), abs(taken_out), abs(stored), scale)
     return abs(put_in - taken_out - stored) / largest if largest > 0 else 0.0

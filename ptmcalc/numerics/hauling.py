@@ -270,7 +270,7 @@ def _swung(still: Hauled, thetas: FloatArray) -> tuple[ComplexArray, FloatArray]
         share = float(missed[j]) + shifted * float(thetas[j])
         grown += share
         if not grown < _MOST_MISSED:
-            raise NumericsError("NUM102", "the drum changes the rope's length faster than the load swings on it")
+            raise NumericsError("NUM102", "the drum changes the rope length faster than the load oscillates on it")
         wrong = wrong + (norm + wrong) * math.expm1(share)
         amplitudes[j], error[j] = c, wrong
         end = c * complex(whole[j])

@@ -1,4 +1,4 @@
-"""Floor 6: reports to text. A report knows what was found, not which machine it was.
+"""Output formats of reports. A report contains results, independent of the machine kind.
 
 A format is a module here with `render`, named in `Format`.
 """
@@ -27,7 +27,7 @@ class Format(StrEnum):
 def render(
     form: Format, reports: Sequence[FileReport], *, width: int = 120, color: bool = False, verbose: bool = False
 ) -> str:
-    """The reports in one format; `width`, `color` and `verbose` matter to the table only."""
+    """The reports in one format; `width`, `color` and `verbose` apply to the table only."""
     module = import_module(f"{__name__}.{form.value}")
     text: str = module.render(tuple(reports), width=width, color=color, verbose=verbose)
     return text

@@ -1,4 +1,4 @@
-"""What changed between two JSON documents of `check`: files, verdicts, loads against their error bars, findings."""
+"""Changes between two JSON documents of `check`: files, verdicts, loads relative to their error bars, findings."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -30,12 +30,12 @@ class Turn(StrEnum):
 
 
 class Move(StrEnum):
-    """What the error bars say of a change of a number."""
+    """Significance of a change, by the error bars."""
 
     CLEAR = "clear"
-    """the intervals do not meet: it did change"""
+    """the intervals do not overlap: a real change"""
     WITHIN = "within_bars"
-    """they do: what is seen may be their errors"""
+    """they overlap: the change may be numerical"""
     BAR = "bar_only"
     """the same value, known more or less closely"""
 

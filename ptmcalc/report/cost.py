@@ -1,4 +1,4 @@
-"""What accuracy costs, as text: a table, JSON, one sentence, and the project's own table of all files."""
+"""Cost of accuracy as text: a table, JSON, one sentence, and the table of all design files."""
 
 import math
 import os
@@ -16,11 +16,11 @@ from ptmcalc.report.table import listing
 MARGINS = "margins"
 _COLUMNS = ("", "setting", "time", "plan", "true error", "bar", "held", "by")
 _LEGEND = (
-    "* no setting proves as much for less; o none comes as close for less. The error is that of the worst governing"
-    " load, relative, against the setting `by`, which is of another method (-: there is none); `≤` where that one knows"
-    " the load no closer; held: whether the bars cover the errors, open where unknown. all: with every effect"
-    " the solver can carry, else with those the scene calls for; f: formula, shown"
-    " only; w: reference method, never planned."
+    "* no faster setting proves the same accuracy; o no faster setting has the same true error. The error is the"
+    " largest relative error of the governing loads, compared with the setting `by` of another method (-: there is"
+    " none); `≤` if that setting is not more accurate; held: whether the error bars cover the errors, open if"
+    " unknown. all: with every effect that the solver can simulate, otherwise with those that the scene requires;"
+    " f: formula, shown only; w: reference method, never planned."
 )
 
 
@@ -156,7 +156,7 @@ def _of_accuracy(report: CostReport, target: str) -> str:
         return f"{target} costs {seconds(total(one.seconds for one in choices))}"
     bar, load = max(_best_bar(report, one, name) for one in short for name in one.missing)
     how = f"no bar of {load} below {share(bar)}" if math.isfinite(bar) else f"no bound of {load}"
-    return f"{target} is out of reach in {_listed([one.scene for one in short])} ({how})"
+    return f"{target} cannot be reached in {_listed([one.scene for one in short])} ({how})"
 
 
 def _best_bar(report: CostReport, choice: Choice, name: str) -> tuple[float, str]:
@@ -272,7 +272,7 @@ def summary(reports: Sequence[CostReport]) -> tuple[tuple[str, ...], list[tuple[
     """Columns and rows of the project's own table, a file a row."""
     shared = [one for one in reports[0].targets if all(one in report.targets for report in reports)]
     targets = [one for one in shared if one != MARGINS]  # not the accuracy that one file asks for
-    columns = ("file", "kind", "its margins", *targets, "bars that hold")
+    columns = ("file", "kind", "its margins", *targets, "confirmed bars")
     return columns, [(report.path, report.kind, *_summed(report, targets)) for report in reports]
 
 

@@ -19,7 +19,7 @@ def effects(console: Console, scenes: Iterable[SceneReport]) -> None:
     rows = [(scene.name, effect) for scene in scenes for effect in scene.effects]
     if not rows:
         return
-    table = new_table("Effects", "scene", "effect", "state", "number", "meaning", "without it")
+    table = new_table("Effects", "scene", "effect", "state", "number", "meaning", "if neglected")
     console.print(fill(table, [_ledger_row(scene, effect) for scene, effect in rows], console.width))
 
 
@@ -65,7 +65,7 @@ def events(console: Console, scenes: tuple[SceneReport, ...]) -> None:
 
 def solvers(console: Console, scenes: Iterable[SceneReport]) -> None:
     """The runs that were made, and the price of the next one."""
-    table = new_table("Solvers", "scene", "solver", "effects carried", "work", "next would take")
+    table = new_table("Solvers", "scene", "solver", "effects simulated", "work", "predicted next")
     rows = [
         [
             scene.name,

@@ -227,7 +227,7 @@ def _review(change: FileChange) -> Iterator[str]:
     sign = _SIGNS.get(change.new, "")
     yield f"### {sign} {escape(change.path)}".replace("  ", " ")
     if not change.old or not change.new:
-        what = f"This file is new; it is judged: {change.new}" if change.new else "This file is gone"
+        what = f"This file is new; its verdict: {change.new}" if change.new else "This file is gone"
         yield f"{what}."
         return
     if change.keys:
@@ -248,16 +248,16 @@ def _review(change: FileChange) -> Iterator[str]:
             (_subject(one.either), one.scene, _margin(one.old or {}), _margin(one.new or {}), one.either["verdict"])
             for one in moved
         ]
-        yield _markdown_table("Margins that moved", ("Check", "Scene", "Before", "After", "Verdict"), rows)
+        yield _markdown_table("Changed margins", ("Check", "Scene", "Before", "After", "Verdict"), rows)
     clear = [load for load in change.told_loads if load.move is Move.CLEAR]
     if clear:
         heads = ("Load", "Scene", "Before", "After", "Change", "Against the error bars")
         loads = [_load_cells(load) for load in clear[:_MOST_LOADS]]
-        yield _markdown_table("Loads that changed beyond their error bars", heads, loads)
+        yield _markdown_table("Loads changed beyond their error bars", heads, loads)
     rest = len(change.told_loads) - len(clear)
     more = max(len(clear) - _MOST_LOADS, 0)
     told = [f"{_counted(more, 'more load')} changed so"] * bool(more)
-    told += [f"{_counted(rest, 'load')} changed within the error bars, so perhaps not at all"] * bool(rest)
+    told += [f"{_counted(rest, 'load')} changed within the error bars, possibly without a real change"] * bool(rest)
     if told:
         yield f"{'; '.join(told)}."
 

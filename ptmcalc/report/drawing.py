@@ -1,4 +1,4 @@
-"""How tables look on a terminal."""
+"""Layout of tables on a terminal."""
 
 import re
 import textwrap

@@ -1,4 +1,4 @@
-"""Everything said about a file as one list: what the formats of continuous integration are made of."""
+"""All findings and verdicts of a file as one list, for the formats of continuous integration."""
 
 import hashlib
 import json
@@ -27,7 +27,7 @@ class Entry:
     scene: str = ""
     element: str = ""
     baseline: bool = False
-    """whether a baseline waives it, not the file"""
+    """True if a baseline waives it, not the file"""
 
     @property
     def fingerprint(self) -> str:

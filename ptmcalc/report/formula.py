@@ -1,7 +1,7 @@
-"""Formulas as the program writes them, `S_tight <= S_slack exp(mu alpha)`: their symbols, and the same in LaTeX.
+"""Formulas in the notation of the program, `S_tight <= S_slack exp(mu alpha)`: their symbols, and the same in LaTeX.
 
-The translation is made word by word and changes nothing of the structure: `a/b` stays `a/b`, so that the LaTeX can say
-nothing else than the plain text. What is no symbol is set as text.
+The translation is made word by word and preserves the structure: `a/b` remains `a/b`. Words other than symbols are set
+as text.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Workflow commands of GitHub Actions: every finding stands at its line in the files of a pull request.
+"""Workflow commands of GitHub Actions: every finding is shown at its line in the files of a pull request.
 
 **Source** GitHub Docs, Workflow commands for GitHub Actions: `::error file=,line=,col=,title=::message`, in which a
 message escapes `%`, CR and LF, and a property the colon and the comma as well.

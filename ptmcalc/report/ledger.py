@@ -1,4 +1,4 @@
-"""The short ledger: what was computed, left out and assumed, and by what number, in a few lines."""
+"""The short summary of simulated and neglected effects, solvers and assumptions, with their criteria."""
 
 import math
 from collections import Counter
@@ -39,7 +39,7 @@ def _listed(parts: Iterable[str], mark: str = ",") -> list[str]:
 
 
 def _effects(scenes: Iterable[SceneReport]) -> Iterator[list[str]]:
-    """What became of the effects, with the numbers that decided; scenes that are alike stand together."""
+    """States of the effects with their criteria; scenes with equal states are combined."""
     found: dict[tuple[str, ...], list[str]] = {}
     for scene in scenes:
         if scene.effects:

@@ -1,4 +1,4 @@
-"""What the short table shows of a report: what governs, and everything that is not passed. The rest is counted."""
+"""Contents of the short table: the governing values and everything that is not passed. The rest is counted."""
 
 import math
 from collections import Counter
@@ -121,10 +121,10 @@ def left_out(reports: Sequence[FileReport]) -> str:
         "event": sum(min(len(scene.events), MOST_EVENTS) for report in reports for scene in report.scenes),
     }
     whole = {
-        "what the effects are": any(scene.effects for report in reports for scene in report.scenes),
+        "meaning of the effects": any(scene.effects for report in reports for scene in report.scenes),
         "all runs": any(scene.solvers for report in reports for scene in report.scenes),
-        "why values are assumed": any(report.assumed for report in reports),
+        "reasons for assumptions": any(report.assumed for report in reports),
     }
     parts = [f"{number} {name}{'' if number == 1 else 's'}" for name, number in counted.items() if number]
     parts += [name for name, there in whole.items() if there]
-    return f"More with --verbose: {', '.join(parts)}" if parts else ""
+    return f"Further output with --verbose: {', '.join(parts)}" if parts else ""

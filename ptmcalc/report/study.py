@@ -1,4 +1,4 @@
-"""How sweeps and tolerances are told: a table for one screen, JSON, and CSV, a line for each point or check."""
+"""Output of sweeps and tolerances: a table for one screen, JSON, and CSV with a line for each point or check."""
 
 import csv
 import math
@@ -238,7 +238,7 @@ def risk_table(name: str, points: Points, found: Sequence[Risk], confidence: flo
     for number, key in enumerate(points.keys):
         column = points.values[:, number]
         low, middle, high = (show(float(np.quantile(column, q)), key.quantity) for q in (0.025, 0.5, 0.975))
-        text += f"  {name}:{key.span.line}  {key.name}: {middle} in the middle, 95 % from {low} to {high}\n"
+        text += f"  {name}:{key.span.line}  {key.name}: {middle} mean, 95 % from {low} to {high}\n"
     columns = ("check", "scene", "title", "fails", "open", f"margin of {sure}", "driven by")
     rows = [
         (
@@ -253,7 +253,7 @@ def risk_table(name: str, points: Points, found: Sequence[Risk], confidence: flo
         for one in found
     ]
     text += listing(columns, rows, width=width)
-    text += f"in brackets: its interval (at {sure}); behind a key: its rank correlation with the margin\n"
+    text += f"in brackets: confidence interval (at {sure}); after a key: its rank correlation with the margin\n"
     return text + "".join(f"note: {note}\n" for note in points.notes)
 
 

@@ -212,7 +212,7 @@ def _columns(
     values = [words.amount(load.estimate, load.info.quantity, units[load.info.name]) if load else "" for load in found]
     columns = [(scene.name, "", values)]
     if courses and any(load and load.course for load in found):
-        columns.append(("course", "dim", [words.sparkline(load.course) if load else "" for load in found]))
+        columns.append(("over time", "dim", [words.sparkline(load.course) if load else "" for load in found]))
     if any(load and load.formula for load in found):
         columns.append(("textbook", "dim", [_formula(load, units[load.info.name]) if load else "" for load in found]))
     return columns

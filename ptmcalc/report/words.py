@@ -1,4 +1,4 @@
-"""Words and numbers as every text format writes them."""
+"""Words and numbers common to all text formats."""
 
 import dataclasses
 import math
@@ -15,7 +15,7 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import AssumedReport, FileReport, Judgement, NextSolver, SceneReport
 
 SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
-"""What a value is to be against its limit."""
+"""Relation of a value to its limit."""
 
 BALANCED = 1e-11
 """A balance of works that closes to less closes to rounding."""

@@ -48,9 +48,9 @@ def render(report: CostReport) -> str:
         '<a class="skip" href="#main">Skip to the report</a>\n'
         f'<header><h1>Work against precision</h1><p class="muted"><code>{path}</code></p></header>\n<main id="main">\n'
         f"<p>{escape(conclusion(report))}</p>\n"
-        '<p class="muted">Filled: the widest reported bar. Hollow: the largest true error, or the most it can be. The'
-        " line joins the settings that prove the most for the least time.</p>\n"
-        f"{panels}</main>\n<footer>ptmcalc {__version__}. The page needs no network: all of it is in this file."
+        '<p class="muted">Filled: the widest reported error bar. Open: the maximum true error, or its upper bound. The'
+        " line joins the settings with the narrowest error bars for their time.</p>\n"
+        f"{panels}</main>\n<footer>ptmcalc {__version__}. The page is self-contained and requires no network."
         "</footer></body></html>\n"
     )
 
@@ -125,7 +125,7 @@ def _drawing(
         up = (math.log10(max(y or 0.0, _LEAST)) - y_low) / (y_high - y_low)
         return _LEFT + across * (_WIDTH - _LEFT - _RIGHT), _HEIGHT - _BOTTOM - up * (_HEIGHT - _TOP - _BOTTOM)
 
-    label = escape(f"Error over the time of a run, {scene}; the numbers stand in the table below")
+    label = escape(f"Error over the time of a run, {scene}; the values are in the table below")
     parts = [f'<figure><svg class="plot" viewBox="0 0 {_WIDTH} {_HEIGHT}" role="img" aria-label="{label}">\n']
     every = math.ceil(_APART * (x_high - x_low) / (_WIDTH - _LEFT - _RIGHT))
     for decade in range(x_low, x_high + 1):

@@ -1,1 +1,1 @@
-"""Floor 2: what every machine description is made of."""
+"""Classes of every machine description."""

@@ -1,4 +1,4 @@
-"""Other names of keys: a file may write them, the program knows the keys alone.
+"""Alternative names of keys: a file may use them, the program uses the keys.
 
 A key declares its other names as `Annotated[Type, Also("pulley")]`. Before validation each of them is replaced by its
 key, at the place it is written; afterwards the messages name the key as the file does.

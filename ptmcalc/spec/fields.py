@@ -32,14 +32,14 @@ _LEAST, _MOST = 1e-12, 1e15  # in SI units: no machine has a value outside, and 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """Annotation of a float field: its quantity and the range a sound machine keeps."""
+    """Annotation of a float field: its quantity and the range of a valid machine."""
 
     quantity: Quantity
     above: float | None = None
     at_least: float | None = None
     at_most: float | None = None
     or_else: Quantity | None = None
-    """the quantity it may be instead, where the machine decides: a torque or a force"""
+    """the alternative quantity, chosen by the machine: a torque or a force"""
     smallest: float = _LEAST
     """size in SI units below which no machine has a value but 0"""
 
@@ -142,7 +142,7 @@ class Day:
 
 
 def problem(code: str, reason: str, hint: str = "") -> PydanticCustomError:
-    """A validation error that carries our code and a copyable fix."""
+    """A validation error with a code and a copyable fix."""
     return PydanticCustomError("ptmcalc", "{reason}", {"code": code, "reason": reason, "hint": hint})
 
 
@@ -152,7 +152,7 @@ def out_of_range(value: object, limit: str) -> PydanticCustomError:
 
 
 def describe(value: object) -> str:
-    """What a value is, in the words of the file."""
+    """Description of a value in the words of the file."""
     if isinstance(value, dict):
         return "a mapping"
     if isinstance(value, list):

@@ -1,4 +1,4 @@
-"""A part of a description: its keys, and what must hold between them.
+"""A part of a description: its keys and the conditions between them.
 
 What holds between keys is said of the mapping as the file writes it, key by key, and not of a finished model: so it
 is looked at beside faults in other keys, and a file shows all its faults in one run.
@@ -26,7 +26,7 @@ _MOST_SLIPS = 100
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
-    """Keys of a block that do not go together: the key at fault, from the block on, why, and what to do.
+    """Conflicting keys of a block: the key at fault relative to the block, the reason and the remedy.
 
     The empty path stands for the block, which lacks a key.
     """
@@ -38,7 +38,7 @@ class Conflict:
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """What the file writes in a block. A misspelt key counts as the one it means: that it is misspelt is said once."""
+    """The contents of a block in the file. A misspelt key counts as the intended one and is reported once."""
 
     model: Model
     raw: dict[str, Any]
@@ -107,21 +107,21 @@ def _given(annotation: Any, raw: object) -> Given | None:
 
 
 def exactly_one(given: Given, *keys: str) -> Iterator[Conflict]:
-    """Of keys that say the same thing one is needed and one is enough."""
+    """Of keys for the same quantity, exactly one is required."""
     if not any(key in given for key in keys):
         yield given.missing(keys[0], f"give {' or '.join(f'`{key}`' for key in keys)}")
     yield from at_most_one(given, *keys)
 
 
 def at_most_one(given: Given, *keys: str) -> Iterator[Conflict]:
-    """Of keys that say the same thing one is enough."""
+    """Of keys for the same quantity, at most one is permitted."""
     written = [key for key in keys if key in given]
     for key in written[1:]:
         yield Conflict((key,), f"give it or `{written[0]}`, not both: they state the same quantity", f"delete `{key}`")
 
 
 def together(given: Given, key: str, other: str, reason: str) -> Iterator[Conflict]:
-    """A key that needs another."""
+    """A key that requires another key."""
     if key in given and other not in given:
         yield given.missing(other, f"{reason}: `{other}` is missing")
 
@@ -137,7 +137,7 @@ def names_of_parts(given: Given, *keys: str) -> Iterator[Conflict]:
                 continue
             plain = re.sub(r"[^\w-]+", "_", name).strip("_") or "part"
             taken.add(word := next(word for word in _numbered(plain) if word not in taken))
-            reason = "a part is called by one word of letters, digits, `_` and `-`: loads and paths are read by it"
+            reason = "a name is one word of letters, digits, `_` and `-`: loads and paths use it"
             yield Conflict((key, name), reason, f"write `{word}:`")
 
 
@@ -153,7 +153,7 @@ class Fragment(Described):
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """What does not go together in this block."""
+        """The conflicts of this block."""
         yield from ()
 
     @model_validator(mode="wrap")

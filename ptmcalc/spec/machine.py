@@ -1,4 +1,4 @@
-"""What every machine description has besides the machine itself."""
+"""Keys common to every machine description."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from datetime import date
@@ -19,18 +19,18 @@ from ptmcalc.spec.scene import Scene
 from ptmcalc.spec.tolerance import Tolerance
 
 Accuracy = Efficiency
-"""A relative error asked for: above 0, at most 1."""
+"""A requested relative error: above 0, at most 1."""
 
 
 class CheckSwitch(Fragment):
-    """Takes one check off the list of this file, with the reason."""
+    """Switches off one check of this file, with the reason."""
 
     off: Annotated[str, Field(min_length=1)]
     """why the check does not apply to this machine"""
 
 
 class Waiver(Fragment):
-    """A check that may fail for a while: its verdict is `waived`, with the reason, and counts again after the day."""
+    """A temporary exemption from a check: its verdict is `waived`, with the reason, until the given day."""
 
     check: str = Field(examples=["CNV101"])
     """code of the check"""
@@ -41,7 +41,7 @@ class Waiver(Fragment):
 
 
 class CheckSettings(Described):
-    """Limits a standard or a company sets, and checks switched off by code: `CNV104: {off: "reason"}`.
+    """Limits of a standard or a company, and checks switched off by code: `CNV104: {off: "reason"}`.
 
     Codes are open here because the kind, not the model, knows them; the loader refuses any other extra key.
     """
@@ -50,7 +50,7 @@ class CheckSettings(Described):
     __pydantic_extra__: dict[str, CheckSwitch]
 
     def switched_off(self, code: str) -> str:
-        """The reason the file gives for leaving this check out, or an empty text."""
+        """The reason in the file for switching off this check, or an empty text."""
         switch = (self.__pydantic_extra__ or {}).get(code)
         return switch.off if switch else ""
 
@@ -60,22 +60,22 @@ class MachineSpec(Fragment):
 
     kind: str
     name: str = Field(default="", max_length=200)
-    """what the machine is called, on the report"""
+    """name of the machine in the report"""
     description: str = ""
-    """anything a reader of the file should know"""
+    """remarks for readers of the file"""
     gravity: Annotated[PositiveAcceleration, Setting("the place: on Earth it is within 0.3 % of 9.81 m/s^2")] = 9.81
     """acceleration of gravity; 9.81 m/s^2 when left out"""
-    accuracy: Annotated[Accuracy | None, Setting("without it, verdicts decide how narrow bars are")] = None
-    """required relative error of the governing loads, e.g. `1 %`; without it accuracy is bought only where a
-    verdict needs it"""
+    accuracy: Annotated[Accuracy | None, Setting("without it, verdicts determine the error bars")] = None
+    """required relative error of the governing loads, e.g. `1 %`; without it only as accurate as the
+    verdicts require"""
     effects: dict[str, Literal["auto", "on", "off"]] = Field(default_factory=dict)
     """effects of the physics forced on or off; every verdict without a forced-off effect is marked"""
 
     tolerances: dict[str, Tolerance] = Field(default_factory=dict, max_length=100)
-    """how far values may really be off, by key: `takeup.tension: {normal: {sd: 2 kN}}`; read by `tolerances`"""
+    """distributions of values, by key: `takeup.tension: {normal: {sd: 2 kN}}`; read by `tolerances`"""
 
     waive: tuple[Waiver, ...] = ()
-    """checks that may fail for a while, each with its reason and its last day"""
+    """temporarily waived checks, each with its reason and its last day"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -91,7 +91,7 @@ class MachineSpec(Fragment):
         for index, scene in enumerate(given.blocks("scenes")):
             label = _label(scene) if scene else ""
             if label and label in seen:
-                reason = f"two scenes are called {quote(label)}"
+                reason = f"two scenes have the name {quote(label)}"
                 yield Conflict(("scenes", index), reason, "give this one a `name:` of its own")
             seen.add(label)
 

@@ -1,7 +1,7 @@
-"""What a number means that a design file may leave out: declared at its key, as `Annotated[Type, Absent("...")] = 0.0`.
+"""Meaning of an optional number, declared at its key as `Annotated[Type, Absent("...")] = 0.0`.
 
-A number that nobody gave may not decide a verdict unseen. So each optional number of a kind is declared as one of the
-classes below; a test walks the keys of all kinds and fails on one that is not.
+A number that is not given must not decide a verdict without notice. So each optional number of a kind is declared as
+one of the classes below; a test walks the keys of all kinds and fails on one that is not.
 """
 
 from collections.abc import Iterator, Mapping
@@ -58,29 +58,29 @@ class Checked:
 
 @dataclass(frozen=True, slots=True)
 class Absent:
-    """Left out means that the part, motion or load is not there: `reason` states why that is neutral or safe."""
+    """An omitted key means that the part, motion or load is absent: `reason` states why this is neutral or safe."""
 
     reason: str
 
 
 @dataclass(frozen=True, slots=True)
 class OneOf:
-    """One of several keys that describe the same thing; a file without any of them (`others`) is refused, or derives
-    the number from them exactly."""
+    """One of several keys for the same quantity; a file without any of them (`others`) is rejected, or the number is
+    derived from them exactly."""
 
     others: str
 
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """No property of the machine but what is asked of the computation, such as a window or an accuracy; the default is
+    """A setting of the computation, not a property of the machine, such as a window or an accuracy; the default is
     printed in the report or covers the worst case (`reason`)."""
 
     reason: str
 
 
 Declared = Assumed | Limit | Checked | Absent | OneOf | Setting
-"""What may be declared of an optional number."""
+"""Possible declarations of an optional number."""
 
 
 def declaration_of(field: FieldInfo) -> Declared | None:

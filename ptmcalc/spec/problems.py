@@ -1,4 +1,4 @@
-"""What validation finds wrong, as diagnostics: each fault once, at its place, in the words of the file."""
+"""Faults of validation as diagnostics: each fault once, at its position, in the words of the file."""
 
 import re
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""What happens to a machine: a scene is an event the machine must survive, in a load state."""
+"""Load cases of a machine: a scene is an event in a load state."""
 
 from typing import Annotated
 
@@ -10,11 +10,11 @@ from ptmcalc.spec.optional import Setting
 
 
 class Scene(Fragment):
-    """Base of every scene. Each kind has its own scene types, told apart by `type`."""
+    """Base of every scene. Each kind has its own scene types, distinguished by `type`."""
 
     type: str
     name: str = Field(default="", pattern=r"^[A-Za-z0-9_.-]*$", max_length=60)
-    """name in the report; made from the scene's type and load when it is left out"""
+    """name in the report; default: type and load of the scene"""
 
     @property
     def label(self) -> str:
@@ -27,12 +27,12 @@ class Scene(Fragment):
 
 
 def type_of(scene: type[Scene]) -> str:
-    """What a file writes as the `type` of a scene."""
+    """The `type` of a scene in a file."""
     return str(scene.model_fields["type"].default)
 
 
 class TransientScene(Scene):
-    """A scene that is computed over a window of time."""
+    """A scene that is simulated over a time window."""
 
-    window_factor: Annotated[FactorFromOne, Setting("the window is printed with the loads")] = 1.0
-    """length of the window of time that is computed, relative to the usual one"""
+    window_factor: Annotated[FactorFromOne, Setting("the report states the window with the loads")] = 1.0
+    """length of the simulated time window, relative to the default"""

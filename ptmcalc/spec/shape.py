@@ -1,4 +1,4 @@
-"""What the models of a description are made of: the keys of each, what stands behind a key, and an example of it."""
+"""Structure of the models of a description: the keys of each model, their types and examples."""
 
 import difflib
 import inspect
@@ -284,7 +284,7 @@ def elsewhere(word: str, model: Model) -> str:
             where = [f"under `{dotted(path)}`" if path else "at the top of the file" for path in blocks]
             more = " ..." if len(where) > _MOST_PLACES else ""
             return f"did you mean `{text}` {', or '.join(where[:_MOST_PLACES])}{more}?"
-    return f"this kind of machine has no key for {quote(word)} in this version" if means else ""
+    return f"this machine kind has no key for {quote(word)} in this version" if means else ""
 
 
 def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:

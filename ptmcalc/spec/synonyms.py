@@ -1,4 +1,4 @@
-"""Words of the field for keys and words of design files, for "did you mean": by meaning first, by spelling second."""
+"""Terms of the field for keys and choices of design files, for "did you mean": by meaning first, then by spelling."""
 
 import re
 from collections.abc import Iterable, Mapping

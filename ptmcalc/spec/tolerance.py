@@ -1,4 +1,4 @@
-"""How far a value of a machine may really be from what its file says: a distribution for each key."""
+"""Distributions of values of a machine, by key."""
 
 from collections.abc import Iterator
 from typing import Annotated, Any
@@ -31,38 +31,38 @@ Amount = Annotated[Any, Written()]
 
 
 class Normal(Fragment):
-    """Gauss: most machines near the mean."""
+    """Gaussian distribution."""
 
     sd: Amount
     """standard deviation"""
     mean: Amount | None = None
-    """the value of the file when left out"""
+    """default: the value of the file"""
     min: Amount | None = None
-    """no machine is below: the rest of the distribution is as it was"""
+    """lower limit; the distribution is truncated"""
     max: Amount | None = None
-    """no machine is above"""
+    """upper limit; the distribution is truncated"""
 
 
 class Uniform(Fragment):
-    """Every value between two is as likely."""
+    """Uniform distribution between two values."""
 
     min: Amount
-    """least value"""
+    """minimum"""
     max: Amount
-    """largest value"""
+    """maximum"""
 
 
 class Tolerance(Fragment):
     """The distribution of one value."""
 
     normal: Normal | None = None
-    """by its standard deviation; what drawings and makers call a tolerance is often two or three of them"""
+    """by its standard deviation; the tolerance of a drawing is often two or three standard deviations"""
     uniform: Uniform | None = None
     """between two values"""
     plus: Amount | None = None
-    """how far above the value of the file; every value up to there is as likely"""
+    """above the value of the file, uniform distribution"""
     minus: Amount | None = None
-    """how far below"""
+    """below the value of the file"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

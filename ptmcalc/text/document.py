@@ -304,7 +304,7 @@ class _Reader:
     def _say_cut(self, text: str, span: Span, path: KeyPath) -> None:
         plain = without_commas(text)
         hint = f"write {plain}" if plain else "put the text in quotes"
-        reason = f"{quote(dotted(path))}: between braces a comma ends a value and cuts {quote(text)} to pieces"
+        reason = f"{quote(dotted(path))}: between braces a comma ends a value and splits {quote(text)}"
         self._say("SPC107", reason, span, path, hint)
 
     def _merge(self, merges: list[_Entry], entries: dict[str, _Entry], path: KeyPath) -> bool:

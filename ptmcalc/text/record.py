@@ -47,7 +47,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
     except OSError as error:
         raise UsageError(f"{name}: the record cannot be read: {error.strerror or error}", "check the path") from None
     if len(raw) > MAX_BYTES:
-        raise UsageError(f"{name}: the record is larger than 64 MiB", "cut out the part that matters")
+        raise UsageError(f"{name}: the record is larger than 64 MiB", "select the relevant part")
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:

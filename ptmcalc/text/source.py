@@ -20,7 +20,7 @@ def beginning_of(path: Path, most: int) -> bytes:
     try:
         kind = os.fstat(number).st_mode
         if not stat.S_ISREG(kind):
-            raise OSError("it is a folder" if stat.S_ISDIR(kind) else "it is no file but a pipe or a device")
+            raise OSError("it is a folder" if stat.S_ISDIR(kind) else "it is a pipe or a device, not a file")
         with open(number, "rb", closefd=False) as file:
             raw = file.read(min(most, _USUAL))
             return raw if len(raw) < _USUAL else raw + file.read(most - len(raw))

@@ -270,7 +270,7 @@ def test_what_cannot_be_merged_is_refused(folder: Path) -> None:
         (("a.json", "b.json"), "`specs/0.yaml` is in `a.json` and in `b.json`"),
         (("a.json", "a.json"), "`a.json` is named twice"),
         (("a.json", "./a.json"), "`a.json` is named twice"),
-        (("a.json", "c.json"), "`c.json` is no JSON report of ptmcalc"),
+        (("a.json", "c.json"), "`c.json` is not a JSON report of ptmcalc"),
         (("a.json", "nowhere.json"), "the report `nowhere.json` cannot be read"),
         (("a.json", "a.store"), "stores and reports do not mix"),
         (("a.store",), "a store is not printed"),
@@ -397,21 +397,21 @@ _CHECK = (*_FILE, "scenes", 0, "checks", 0)
         (_set("run", "shard", to=[]), "does not state which part of a run it is"),
         (_set("run", "fail_level", to="all"), "does not state which part of a run it is"),
         (_set("run", "more", to=1), "does not state which part of a run it is"),
-        (_set(*_FILE, "verdict", to="good"), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, "verdict", to=[]), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, "path", to=3), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, "scenes", to=None), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, "scenes", to={"a": 1}), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, "scenes", 0, "checks", to=3), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, "ignored", to="many"), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, "ignored", to=-1), "is no JSON report of ptmcalc"),
-        (_set(*_CHECK, "verdict", to={}), "is no JSON report of ptmcalc"),
-        (_set(*_CHECK, "value", to="9"), "is no JSON report of ptmcalc"),
-        (_set(*_CHECK, "value", to=float("nan")), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, "diagnostics", to=[{}]), "is no JSON report of ptmcalc"),
-        (_set(*_FILE, to=None), "is no JSON report of ptmcalc"),
-        (_set("files", to=7), "is no JSON report of ptmcalc"),
-        (_set("tool", to="ptmcalc"), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "verdict", to="good"), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, "verdict", to=[]), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, "path", to=3), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, "scenes", to=None), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, "scenes", to={"a": 1}), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, "scenes", 0, "checks", to=3), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, "ignored", to="many"), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, "ignored", to=-1), "is not a JSON report of ptmcalc"),
+        (_set(*_CHECK, "verdict", to={}), "is not a JSON report of ptmcalc"),
+        (_set(*_CHECK, "value", to="9"), "is not a JSON report of ptmcalc"),
+        (_set(*_CHECK, "value", to=float("nan")), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, "diagnostics", to=[{}]), "is not a JSON report of ptmcalc"),
+        (_set(*_FILE, to=None), "is not a JSON report of ptmcalc"),
+        (_set("files", to=7), "is not a JSON report of ptmcalc"),
+        (_set("tool", to="ptmcalc"), "is not a JSON report of ptmcalc"),
     ],
 )
 def test_a_part_that_contradicts_itself_or_is_malformed_is_refused(
@@ -573,7 +573,7 @@ def test_an_interrupt_keeps_and_prints_what_is_done(folder: Path, monkeypatch: p
 def test_what_is_no_number_of_processes_is_refused(folder: Path, text: str) -> None:
     done = checked(f"--jobs={text}")
     assert (done.status, done.out) == (2, "")
-    assert "is no number of processes" in done.err
+    assert "is not a number of processes" in done.err
 
 
 def test_names_come_from_standard_input(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

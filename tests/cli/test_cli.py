@@ -104,24 +104,24 @@ def test_findings_weigh_only_as_much_as_asked(level: str, file: Path, status: in
         (("check",), "Missing argument"),
         (("check", PASSING, "--format", "xml"), "xml"),
         (("check", PASSING, "--fail-level", "loud"), "loud"),
-        (("check", PASSING, "--scene", "stop"), "no scene is called `stop` (scenes: run_loaded, start_empty)"),
+        (("check", PASSING, "--scene", "stop"), "unknown scene `stop` (scenes: run_loaded, start_empty)"),
         (("check", PASSING, "-o", "json"), "`json` is not FORMAT=FILE"),
         (("check", PASSING, "-o", "json="), "`json=` is not FORMAT=FILE"),
         (("check", PASSING, "-o", "xml=report.xml"), "formats: table, plain, json"),
         (("check", PASSING, "--effects", "belt_wave"), "`belt_wave` is not NAME=on|off|auto"),
         (("check", PASSING, "--effects", "belt_wave=maybe"), "`belt_wave=maybe` is not NAME=on|off|auto"),
-        (("new", "airship"), "no machine kind is called `airship` (kinds: "),
-        (("schema", "airship"), "no machine kind is called `airship`"),
-        (("solvers", "airship"), "no machine kind is called `airship`"),
+        (("new", "airship"), "unknown machine kind `airship` (kinds: "),
+        (("schema", "airship"), "unknown machine kind `airship`"),
+        (("solvers", "airship"), "unknown machine kind `airship`"),
         (("solve", PASSING, "--check", "CNV999", "--vary", "speed"), "a conveyor has no check `CNV999`"),
         (("solve", PASSING, "--check", "CNV101", "--vary", "name"), "`name` is not a number that can be varied"),
         (
             ("solve", PASSING, "--check", "CNV101", "--vary", "speed", "--scene", "stop"),
-            "no scene is called `stop`",
+            "unknown scene `stop`",
         ),
         (("explain", "CNV1O4"), "did you mean `CNV104`?"),
         (("explain", "belt_waves"), "did you mean `belt_wave`?"),
-        (("explain", "xyzzy"), "nothing is called `xyzzy`"),
+        (("explain", "xyzzy"), "unknown name `xyzzy`"),
         (("frobnicate",), "frobnicate"),
     ],
 )
@@ -234,7 +234,7 @@ def test_the_whole_table_is_to_be_had(option: str, tmp_path: Path) -> None:
     assert (done.status, done.err) == (0, "")
     assert file.read_text("utf-8") == done.out
     assert len(done.out.splitlines()) > len(short.splitlines())
-    assert short.splitlines()[-1].startswith("More with --verbose: ")
+    assert short.splitlines()[-1].startswith("Further output with --verbose: ")
     assert ptmcalc("check", PASSING, option).out == ptmcalc("check", PASSING).out
 
 
@@ -503,9 +503,9 @@ def test_solve_of_a_faulty_file_exits_2() -> None:
     [
         ("CNV101", ("drive pulley traction reserve", "Formula", "Limit:", "**Range**", "Source:")),
         ("cnv101", ("CNV101: drive pulley traction reserve",)),
-        ("belt_wave", ("When it matters", "What leaving it out can change", "**Error**")),
+        ("belt_wave", ("When it matters", "Change if it is neglected", "**Error**")),
         ("sag", ("Part of: belt_wave",)),
-        ("characteristics", ("Effects it carries: belt_wave", "**Source**")),
+        ("characteristics", ("Simulated effects: belt_wave", "**Source**")),
         ("first_wave", ("never decides",)),
         ("SPC106", ("missing unit", "What to do:")),
     ],

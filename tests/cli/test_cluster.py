@@ -121,10 +121,10 @@ def test_a_scheduler_that_goes_leaves_one_clear_error_and_what_is_done(
     ("executor", "reason"),
     [
         ("dask://127.0.0.1:1", "no scheduler of dask answers at `127.0.0.1:1`"),
-        ("dask://127.0.0.1", "is no executor"),
-        ("dask://user@host:1", "is no executor"),
-        ("slurm", "is no executor"),
-        ("", "is no executor"),
+        ("dask://127.0.0.1", "is not an executor"),
+        ("dask://user@host:1", "is not an executor"),
+        ("slurm", "is not an executor"),
+        ("", "is not an executor"),
     ],
 )
 def test_what_is_no_cluster_is_refused(executor: str, reason: str, specs: Callable[[int], None]) -> None:

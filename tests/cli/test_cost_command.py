@@ -71,12 +71,12 @@ def test_a_line_a_file_of_a_folder() -> None:
     ("arguments", "said"),
     [
         ((), "no design file is named"),
-        ((ONE, "--plot", "a.png"), "is no page"),
+        ((ONE, "--plot", "a.png"), "is not a page"),
         ((ONE, "--plot", "no/such/folder/a.html"), "cannot write"),
         ((WINDING, "--plot", "a.html"), "one page shows one machine"),
         ((ONE, "--accuracy", "0 %"), "not between 0 and 100 %"),
         ((ONE, "--accuracy", "1 kg"), "--accuracy"),
-        ((ONE, "--scene", "start"), "no scene is called"),
+        ((ONE, "--scene", "start"), "unknown scene"),
         ((ONE, "--budget", "two"), "--budget"),
     ],
 )
@@ -97,6 +97,6 @@ def test_a_faulty_file_is_told_and_the_others_are_measured(tmp_path: Path) -> No
 
 
 def test_a_witness_and_a_shared_method_are_explained() -> None:
-    assert "No plan offers it" in ptmcalc("explain", "cells").out
-    assert "It computes as two_mass" in ptmcalc("explain", "hoist_train").out
-    assert "It computes as" not in ptmcalc("explain", "characteristics").out
+    assert "Reference method, never used for a verdict" in ptmcalc("explain", "cells").out
+    assert "It uses the method of two_mass" in ptmcalc("explain", "hoist_train").out
+    assert "It uses the method of" not in ptmcalc("explain", "characteristics").out

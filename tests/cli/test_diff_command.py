@@ -157,7 +157,7 @@ def test_the_comment_reads_like_a_review(states: Path) -> None:
     )
     assert "\n\nThis file is gone.\n" in text
     assert "- new: **error** SPC103, line 1: " in text
-    for title in ("Margins that moved", "Loads that changed beyond their error bars"):
+    for title in ("Changed margins", "Loads changed beyond their error bars"):
         assert f"<details><summary>{title}</summary>\n\n| " in worse, "tables are opened by who wants to know"
     assert worse.count("|\n\n</details>") == 2
     invalid = text.partition("invalid.yaml\n\n")[2].partition("\n\n### ")[0]
@@ -197,7 +197,7 @@ def test_a_load_of_the_only_drive_is_not_told_twice(states: Path) -> None:
     [
         ("nowhere", "new", "there is no `nowhere`"),
         ("old", "nowhere.yaml", "there is no `nowhere.yaml`"),
-        ("notes.json", "new", "`notes.json` is no JSON report of ptmcalc"),
+        ("notes.json", "new", "`notes.json` is not a JSON report of ptmcalc"),
     ],
 )
 def test_what_cannot_be_compared_is_refused(states: Path, old: str, new: str, said: str) -> None:

@@ -49,7 +49,7 @@ def test_the_longer_prefix_wins_and_what_is_left_out_is_counted(
 def test_a_run_that_checks_nothing_has_not_passed(options: tuple[str, ...]) -> None:
     done = checked(SLIPPING, *options)
     assert (done.status, last(done)) == (3, "1 file, 0 checks passed, 8 ignored")
-    assert done.err == "ptmcalc: no check is left by --select and --ignore; nothing was checked\n"
+    assert done.err == "ptmcalc: --select and --ignore exclude all checks; nothing was checked\n"
     (entry,) = json.loads(ptmcalc("check", "--no-repairs", "--format", "json", SLIPPING, *options).out)["files"]
     assert (entry["verdict"], entry["ignored_checks"]) == ("undecided", 8)
 
@@ -220,7 +220,7 @@ def test_a_faulty_baseline_is_wrong_usage(text: str, tmp_path: Path) -> None:
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
     done = checked(SLIPPING, "--baseline", path)
     assert (done.status, done.out) == (2, "")
-    assert "is no baseline of ptmcalc" in done.err
+    assert "is not a baseline of ptmcalc" in done.err
 
 
 def test_a_baseline_of_the_form_before_is_refused_by_name(tmp_path: Path) -> None:

@@ -191,7 +191,7 @@ LENGTH, LAW = ("--length", "1:10"), ("--law", "ballast")
             "full similarity needs a density scale of 10, not 1 (of modulus, density and gravity one that is left out"
             " follows)",
         ),
-        ((*LENGTH, *LAW, "--scene", "stop"), "no scene is called `stop` (scenes: run_loaded, start_empty)"),
+        ((*LENGTH, *LAW, "--scene", "stop"), "unknown scene `stop` (scenes: run_loaded, start_empty)"),
     ],
 )
 def test_a_fault_is_one_message(arguments: tuple[str, ...], said: str) -> None:

@@ -76,12 +76,12 @@ def test_the_curve_over_a_second_key_is_made_of_solutions(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--margin", "wide"), "`--margin wide` is no margin"),
-        (("--margin", "-5%"), "`--margin -5%` is no margin"),
-        (("--margin", "nan%"), "`--margin nan%` is no margin"),
-        (("--margin", "3 kg"), "`--margin 3 kg` is no margin"),
+        (("--margin", "wide"), "`--margin wide` is not a margin"),
+        (("--margin", "-5%"), "`--margin -5%` is not a margin"),
+        (("--margin", "nan%"), "`--margin nan%` is not a margin"),
+        (("--margin", "3 kg"), "`--margin 3 kg` is not a margin"),
         (("--vary", "belt.mass"), "one key is solved for"),
-        (("--vary", "belt.mass=1 kg/m:2 kg/m"), "is no range"),
+        (("--vary", "belt.mass=1 kg/m:2 kg/m"), "is not a range"),
         (("--vary", "belt.mas=1 kg/m:2 kg/m:3"), "belt.mas"),
     ],
 )

@@ -93,7 +93,7 @@ def test_verdicts_turn_where_solve_says(file: Path) -> None:
     table = swept("--vary", "takeup.tension=10 kN:40 kN:301", form="table")
     assert table.status == 0
     assert "yard.yaml:25  takeup.tension: 10 kN to 40 kN, now 30 kN" in table.out
-    assert "where they turn" in table.out
+    assert "limits of the verdicts" in table.out
     assert f"from {one['least'] / 1e3:.2f} kN" in table.out
 
 
@@ -198,16 +198,16 @@ def test_what_is_beyond_the_budget_is_told_and_not_guessed(file: Path) -> None:
     ("options", "reason"),
     [
         ((), "nothing varies"),
-        (("--vary", "takeup.tension"), "is no range"),
+        (("--vary", "takeup.tension"), "is not a range"),
         (("--vary", "takeup.tension=1 kN:2 kN"), "write KEY=from:to:n, e.g. `takeup.tension=20 kN:60 kN:21`"),
-        (("--vary", "takeup.tension=1 kN:2 kN:many"), "`many` is no number of points"),
-        (("--vary", "takeup.tension=1 kN:2 kN:0"), "`0` is no number of points"),
+        (("--vary", "takeup.tension=1 kN:2 kN:many"), "`many` is not a number of points"),
+        (("--vary", "takeup.tension=1 kN:2 kN:0"), "`0` is not a number of points"),
         (("--vary", "takeup.tension=1 kN:2 kN:1000001"), "is no number of points (write how many, at most 1000000"),
         (("--vary", "takeup.tension=1 kN:2 kN:" + "9" * 5000), "is no number of points (write how many, at most"),
         (("--vary", "takeup.tension=1 kN:2 kN", "--sample", "lhs", "--points", "1000001"), "from 1 to 1000000"),
         (("--vary", "speed=1 m/s:2 m/s:1") * 21, "21 keys vary (at most 20 in one sweep)"),
-        (("--vary", "takeup.tension=1 kN:2 kN:3:4"), "is no range"),
-        (("--vary", "=1:2:3"), "is no range"),
+        (("--vary", "takeup.tension=1 kN:2 kN:3:4"), "is not a range"),
+        (("--vary", "=1:2:3"), "is not a range"),
         (("--vary", "takeup.tenson=1 kN:2 kN:3"), "in this file (did you mean `takeup.tension`?)"),
         (("--vary", "takeup.tension=1:2:3"), "`takeup.tension`: `1` has no unit"),
         (("--vary", "takeup.tension=1 kN:2 m:3"), "`2 m` is a length, not a force"),
@@ -218,9 +218,9 @@ def test_what_is_beyond_the_budget_is_told_and_not_guessed(file: Path) -> None:
         (("--vary", "belt.mass=1 kg/m:2 kg/m:1001", "--vary", "speed=1 m/s:2 m/s:1000"), "that makes 1001000 points"),
         (("--vary", "belt.mass=1 kg/m:2 kg/m:3", "--points", "4"), "leave --points out"),
         (("--vary", "belt.mass=1 kg/m:2 kg/m", "--sample", "lhs"), "add e.g. --points 200"),
-        (("--vary", "belt.mass=1 kg/m:2 kg/m:3", "--sample", "lhs", "--points", "4"), "is no range"),
+        (("--vary", "belt.mass=1 kg/m:2 kg/m:3", "--sample", "lhs", "--points", "4"), "is not a range"),
         (("--vary", "belt.mass=1 kg/m:2 kg/m", "--sample", "lhs", "--points", "0"), "`--points 0` is no number"),
-        (("--vary", "belt.mass=1 kg/m:2 kg/m:3", "--scene", "stop"), "no scene is called `stop`"),
+        (("--vary", "belt.mass=1 kg/m:2 kg/m:3", "--scene", "stop"), "unknown scene `stop`"),
         (("--vary", "belt.mass=1 kg/m:2 kg/m:3", "--budget", "4"), "--budget"),
     ],
 )  # fmt: skip

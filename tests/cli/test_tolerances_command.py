@@ -153,7 +153,7 @@ def test_every_form_says_the_same() -> None:
         assert float(lines[code]["fail_high"]) == row["fail"]["high"]
         assert float(lines[code]["margin"]) == row["margin"]["value"]
     assert "yard.yaml: 1000 machines, seed 0" in table
-    assert "yard.yaml:25  takeup.tension: 29.87 kN in the middle, 95 % from " in table
+    assert "yard.yaml:25  takeup.tension: 29.87 kN mean, 95 % from " in table
 
 
 def test_undecided_machines_count_as_neither_and_widen_the_upper_end() -> None:
@@ -207,8 +207,8 @@ def test_without_a_computed_sample_nothing_is_said() -> None:
 @pytest.mark.parametrize(
     ("block", "place", "message"),
     [
-        ("  takeup.tenson: {plus: 1 kN}\n", "1:3", "`takeup.tenson` is no key of a number in this file; did you mean"),
-        ("  takeup.type: {plus: 1 kN}\n", "1:3", "`takeup.type` is no key of a number"),
+        ("  takeup.tenson: {plus: 1 kN}\n", "1:3", "`takeup.tenson` is not a numerical key of this file; did you mean"),
+        ("  takeup.type: {plus: 1 kN}\n", "1:3", "`takeup.type` is not a numerical key"),
         ("  takeup.tension: {plus: 1 m}\n", "1:26", "`tolerances.takeup.tension.plus`: `1 m` is a length, not a force"),
         ("  takeup.tension: {plus: 1}\n", "1:26", "`1` has no unit"),
         ("  takeup.tension: {plus: -1 kN}\n", "1:26", "out of range: it must be at least 0 N"),
@@ -217,11 +217,11 @@ def test_without_a_computed_sample_nothing_is_said() -> None:
         ("  takeup.tension: {normal: {}}\n", "1:20", "`sd` is missing"),
         ("  takeup.tension: {normal: {sd: 1 kN, men: 2 kN}}\n", "1:39", "unknown key"),
         ("  takeup.tension: {normal: {sd: [1]}}\n", "1:33", "expected a value of the key, found a list"),
-        ("  takeup.tension: {uniform: {min: 3 kN, max: 2 kN}}\n", "1:41", "largest value is not above the least one"),
+        ("  takeup.tension: {uniform: {min: 3 kN, max: 2 kN}}\n", "1:41", "the maximum is not above the minimum"),
         ("  takeup.tension: {normal: {sd: 1 kN}, plus: 1 kN}\n", "1:20", "give it or `plus`, not both"),
         ("  takeup.tension: {normal: {sd: 1 kN}, uniform: {min: 1 kN, max: 2 kN}}\n", "1:40", "not both"),
         ("  takeup.tension: {}\n", "1:3", "give `normal` or `uniform`"),
-        ("  takeup.tension: {plus: 0 kN}\n", "1:3", "plus and minus nothing is no tolerance"),
+        ("  takeup.tension: {plus: 0 kN}\n", "1:3", "a tolerance of plus and minus zero has no effect"),
         ("  takeup.tension: 1 kN\n", "1:19", "takes a mapping"),
         ("  takeup.tension: {plus: 1 kN}\n  takeup.tension: {plus: 2 kN}\n", "2:3", "is written twice"),
         ("  - takeup.tension\n", "1:3", "takes a mapping"),
@@ -260,16 +260,16 @@ MANY = "".join(
     [
         ("  {}\n", (), "has no `tolerances`"),
         ("  takeup.stroke: {plus: 1 m}\n", (), "the file has no value of it"),
-        ("  takeup.tension: {normal: {sd: 20 kN}}\n", (), "some machines have values that none can have"),
+        ("  takeup.tension: {normal: {sd: 20 kN}}\n", (), "some random machines have impossible values"),
         ("  takeup.tension: {minus: 40 kN}\n", (), "it must be greater than 0 N"),
         ("  takeup.tension: {normal: {sd: 1 kN, min: 90 kN}}\n", (), "the probability between"),
-        ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "0"), "`--samples 0` is no number of samples"),
+        ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "0"), "`--samples 0` is not a number of samples"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "1000001"), "write one from 1 to 1000000"),
         (MANY, ("--samples", "1000000"), "`--samples 1000000` of 21 values are too many (write one from 1 to 952380"),
         ("".join(f"  belt.mass{n}: {{plus: 1 kg}}\n" for n in range(101)), (), "at most 100"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--confidence", "100%"), "is not from 50 % to below 100 %"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--confidence", "sure"), "--confidence:"),
-        ("  takeup.tension: {plus: 1 kN}\n", ("--scene", "stop"), "no scene is called `stop`"),
+        ("  takeup.tension: {plus: 1 kN}\n", ("--scene", "stop"), "unknown scene `stop`"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_drawn_is_refused(block: str, options: tuple[str, ...], reason: str) -> None:

@@ -142,5 +142,5 @@ def test_every_file_is_in_exactly_one_shard(number: int) -> None:
 
 @pytest.mark.parametrize("text", ["0/2", "3/2", "1", "1/", "/2", "a/b", "1/0", "-1/2", "1/2/3", "²/3"])
 def test_what_is_no_shard_is_refused(text: str) -> None:
-    with pytest.raises(UsageError, match="no part of a run"):
+    with pytest.raises(UsageError, match="not a part of a run"):
         part([], text)

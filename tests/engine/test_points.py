@@ -194,7 +194,7 @@ def test_a_point_is_a_file_of_its_own() -> None:
 def test_a_key_that_is_none_of_a_number_is_refused(name: str, hint: str) -> None:
     with pytest.raises(UsageError) as error:
         varied_key(loaded_file(), name)
-    assert "is no key of a number in this file" in error.value.message
+    assert "is not a numerical key of this file" in error.value.message
     assert hint.strip("`") in error.value.hint
 
 

@@ -315,7 +315,7 @@ def test_a_verdict_says_without_only_of_what_the_file_forced_off() -> None:
     effects = [effect("waves", bound=NARROW), effect("sag", number=None, bound=ANYTHING)]
     found = report(kind_of(solver("rigid", pull(9)), effects=effects))
     assert judgement(found).without == ()
-    assert "an input it needs is not given" in effect_of(found, "sag").note
+    assert "a required input is not given" in effect_of(found, "sag").note
 
 
 @pytest.mark.parametrize(("carries", "note"), [(("waves",), "its bound is calibrated"), (("waves", "echo"), "")])
@@ -336,7 +336,7 @@ def test_an_effect_forced_on_that_lacks_an_input_is_refused() -> None:
     )
     found = report(kind, effects={"sag": "on"})
     assert [(one.code, one.severity) for one in found.diagnostics] == [("SPC205", Severity.ERROR)]
-    assert "an input that it needs is not given" in found.diagnostics[0].message
+    assert "a required input is not given" in found.diagnostics[0].message
     assert (found.verdict, found.scenes) == ("invalid", ())
 
 

@@ -340,7 +340,7 @@ def test_scenes_may_be_chosen() -> None:
     (calm,) = report_on(kind, spec, model, ("calm",)).loads
     assert calm.model is not None
     assert (calm.scene, calm.model.value) == ("calm", pytest.approx(KN))
-    with pytest.raises(UsageError, match="no scene is called `storm`"):
+    with pytest.raises(UsageError, match="unknown scene `storm`"):
         report_on(kind, spec, model, ("storm",))
 
 

@@ -107,10 +107,10 @@ def test_a_key_of_whole_numbers_varies_by_whole_numbers() -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("drum.layers=1:4:3", "takes whole numbers, and some of these are none"),
-        ("drum.layers=1:4:4:log", "takes whole numbers, and some of these are none"),
-        ("drum.layers=1.5:4:4", "and `1.5` is none"),
-        ("drum.layer=1:4:4", "is no key of a number"),
+        ("drum.layers=1:4:3", "takes whole numbers, and some of these values are not whole numbers"),
+        ("drum.layers=1:4:4:log", "takes whole numbers, and some of these values are not whole numbers"),
+        ("drum.layers=1.5:4:4", "and `1.5` is not one"),
+        ("drum.layer=1:4:4", "is not a numerical key"),
     ],
 )
 def test_what_is_no_whole_number_is_refused(text: str, reason: str) -> None:

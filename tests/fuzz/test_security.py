@@ -139,7 +139,7 @@ def test_pipes_and_devices_are_not_read(tmp_path: Path) -> None:
         assert done.status == 2
         assert "TXT101" in done.out or "TXT102" in done.out
     record = ptmcalc("decode", ROOT / "specs" / "shaft.yaml", tmp_path / "pipe.yaml", "--phase", "run_up")
-    assert (record.status, "no file but a pipe" in record.err) == (2, True)
+    assert (record.status, "a pipe or a device, not a file" in record.err) == (2, True)
 
 
 def test_the_ignored_of_a_stranger_take_no_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

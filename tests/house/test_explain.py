@@ -114,11 +114,11 @@ def test_no_line_of_symbols_is_of_nothing() -> None:
         ("two_mass", "M: mass of the load [kg]"),
         (
             "mast_handbook",
-            "k: share of the column's mass at its end: 0.236 for a rigid root, 0.305 for one that gives [1]",
+            "k: share of the mast mass at its end: 0.236 for a rigid root, 0.305 for a compliant root [1]",
         ),
         ("HST140", "k: natural circular frequency of the load on its ropes [rad/s]"),
         ("CRN207", "a: acceleration of the base [m/s^2]"),
-        ("CRN207", "e: arm of the load's weight [m]"),
+        ("CRN207", "e: arm of the load weight [m]"),
     ],
 )
 def test_a_letter_is_explained_as_on_its_page(name: str, line: str) -> None:

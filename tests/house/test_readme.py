@@ -141,7 +141,7 @@ def test_the_table_of_costs_is_of_the_files_there_are() -> None:
     """Its structure, not its seconds: a line a file, in the columns `cost --all` writes today."""
     section = ACCURACY.partition("\n## The price of every design file\n")[2]
     head, rule, *lines = [line for line in section.splitlines() if line.startswith("|")]
-    short = README.partition("\n## What accuracy costs\n")[2].partition("\n## ")[0]
+    short = README.partition("\n## Cost of accuracy\n")[2].partition("\n## ")[0]
     shown = [line for line in short.partition("\n\nSix problems")[0].splitlines() if line.startswith("|")]
     assert shown[:2] == [head, rule]
     assert set(shown[2:]) <= set(lines), "the README shows lines of the whole table"

@@ -289,5 +289,5 @@ def test_a_bar_that_grows_by_e_to_the_thirtieth_is_none(exponent: float, told: b
     if told:
         assert haul(even, speed, ROPE).lengths[-1] == pytest.approx(s1, rel=1e-12)
         return
-    with pytest.raises(NumericsError, match="faster than the load swings"):
+    with pytest.raises(NumericsError, match="faster than the load oscillates"):
         haul(even, speed, ROPE)

@@ -343,7 +343,7 @@ class TestC25:
 
 
 class TestC20:
-    """A fork caught by the rack while hoisting: closed forms; the elastic rack goes through a file."""
+    """A fork snagged in the rack while hoisting: closed forms; the elastic rack goes through a file."""
 
     M, M1, K, V, SLOPE = 1600.0, 9000.0, 9e5, 0.3, 4e4
     Q = M * G

@@ -79,7 +79,7 @@ def test_torque_or_time_of_the_start_is_derived() -> None:
 
 def test_the_warning_names_both_lines_and_both_consistent_values() -> None:
     (warning,) = (d for d in report_of(COURSE).diagnostics if d.code == "SPC201")
-    for part in ("37 N*m and 8 s exclude each other", "1.905 s", "17.43 N*m", "5.954 kN*m", "4.871 kN*m"):
+    for part in ("37 N*m and 8 s contradict each other", "1.905 s", "17.43 N*m", "5.954 kN*m", "4.871 kN*m"):
         assert part in warning.message
     assert "`motor.mean_starting_torque` in line" in warning.message
     assert "`handbook.start_time` in line" in warning.message

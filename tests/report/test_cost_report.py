@@ -97,7 +97,7 @@ def test_the_sentence_says_what_the_table_says() -> None:
     for part in (
         "Every check of this file (the closest, CNV101, 12 % from its limit) is decided in 1 ms by rough",
         "5 % costs 250 ms; 1 % costs 250 ms",
-        "0.1 % is out of reach in start_loaded (no bar of pull[head] below 0.01 %)",
+        "0.1 % cannot be reached in start_loaded (no bar of pull[head] below 0.01 %)",
         "1 of 2 compared settings cover the true error with their bars",
         "1 are known closer than by any other method",
         "for 2 there is no other method",
@@ -144,7 +144,7 @@ def test_the_sentences_of_several_files_name_them() -> None:
 def test_the_table_of_all_files_has_a_line_a_file() -> None:
     text = cost.markdown([REPORT, REPORT])
     head, rule, *rows = text.splitlines()
-    assert head == "| file | kind | its margins | 5 % | 1 % | 0.1 % | bars that hold |"
+    assert head == "| file | kind | its margins | 5 % | 1 % | 0.1 % | confirmed bars |"
     assert rule.count("---") == head.count("|") - 1
     assert rows == ["| `specs/a.yaml` | toy | 1 ms | 250 ms | 250 ms | - | 1 of 1 |"] * 2
 

@@ -340,7 +340,7 @@ def test_parts_have_courses_where_the_machine_has_none() -> None:
     assert max(curve.history.values) == course.values[1234]
     assert curve.history.times[curve.history.values.index(max(curve.history.values))] == 1.234
     assert min(curve.history.values) == min(course.values)
-    assert "their course is not" in figures["tension_over_time"].missing
+    assert "their curve does not" in figures["tension_over_time"].missing
 
 
 def test_what_lies_below_zero_is_marked_there() -> None:

@@ -336,12 +336,12 @@ def table_rows(text: str, heading: str) -> int:
 def test_what_is_left_out_is_counted_truthfully(path: str) -> None:
     report = report_of_file(path)
     last = short(report).splitlines()[-1]
-    assert last.startswith("More with --verbose: ")
+    assert last.startswith("Further output with --verbose: ")
     told = {name: int(number) for number, name in re.findall(r"(\d+) (load|passed check|event)", last)}
     for heading, name in (("Loads", "load"), ("Checks", "passed check")):
         assert table_rows(whole(report), heading) - table_rows(short(report), heading) == told.get(name, 0), heading
     assert told.get("event", 0) == sum(len(scene.events) for scene in report.scenes)
-    assert ("why values are assumed" in last) == bool(report.assumed)
+    assert ("reasons for assumptions" in last) == bool(report.assumed)
 
 
 @pytest.mark.parametrize("path", SPECS)
@@ -366,13 +366,13 @@ def test_what_is_left_out_is_counted_over_all_files_at_the_end() -> None:
     both = [SAMPLES["moving"], SAMPLES["switched_off"], SAMPLES["moving"], SAMPLES["passing"]]
     *_, summary, last = render(Format.TABLE, both).splitlines()
     assert summary == "4 files, 9 checks passed, 1 switched off"
-    assert last == "More with --verbose: 6 passed checks, 60 events, what the effects are, all runs"
+    assert last == "Further output with --verbose: 6 passed checks, 60 events, meaning of the effects, all runs"
 
 
 def test_one_is_one() -> None:
     loads = [load("governing", governing=True), load("other")]
     report = file(scene("rest", loads, [judged("TOY101", Verdict.PASS, margin) for margin in (1.0, 2.0)]))
-    assert short(report).splitlines()[-1] == "More with --verbose: 1 load, 1 passed check"
+    assert short(report).splitlines()[-1] == "Further output with --verbose: 1 load, 1 passed check"
 
 
 @pytest.mark.parametrize("name", ["invalid", "unreadable"])

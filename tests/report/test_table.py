@@ -115,7 +115,7 @@ def test_the_ledger_shows_every_effect_with_the_number_that_decided() -> None:
     assert ledger["frost"] == ["bounded", "x = 5 ≥ 0.1", "a number"]
     assert ledger["rain"] == ["skipped (forced)", "x = 5 ≥ 0.1", "a number; forced off by the file"]
     assert ledger["fog"][0] == "skipped"
-    assert "an input it needs is not given" in " ".join(ledger["fog"])
+    assert "a required input is not given" in " ".join(ledger["fog"])
 
 
 def test_a_verdict_without_a_forced_effect_says_so() -> None:

@@ -98,7 +98,7 @@ FAULTS: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str]] = {
         (("carry_pitch: 1 m", "curve_radius: 300 m"),),
         "route.sections[0].curve_radius",
         "curve_radius: 300 m",
-        "write it under the section behind the curve",
+        "write it under the section after the curve",
     ),
     "a diameter and a carcass": (
         (("warp: steel_cord", "warp: steel_cord\nminimum_drum_diameter: 900 mm"),),
@@ -142,7 +142,7 @@ FAULTS: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str]] = {
         (("secondary_force: 12 kN", "secondary: 1.1"),),
         "resistance.forces.chute.loading",
         "loading:",
-        "give `secondary_force` for all that C stands for",
+        "give `secondary_force` instead of C",
     ),
     "a motor faster under load than without": (
         (

@@ -91,17 +91,17 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
         "SPC113",
         "they state the same quantity",
     ),
-    "largest wind below the steady one": ({"wind__maximum": "1 kN*m"}, "SPC113", "below the steady one"),
+    "largest wind below the steady one": ({"wind__maximum": "1 kN*m"}, "SPC113", "below the steady wind"),
     "not a number": ({"friction": "nan N*m"}, "SPC109", "not a finite number"),
     "huge": ({"friction": "1e30 N*m"}, "SPC110", "out of range"),
     "no unit": ({"speed": 2}, "SPC106", "has no unit"),
     "wrong unit": ({"speed": "2 m/s"}, "SPC105", "`2 m/s`"),
     "no speed": ({"speed": None}, "SPC103", "`speed` is missing"),
-    "no load beside the parts": ({"load": None}, "SPC113", "the load slews with the parts"),
+    "no load beside the parts": ({"load": None}, "SPC113", "the load is one of the slewing parts"),
     "nothing that slews": (
         {"slewing_part": None, "counterweight": None, "jib": None},
         "SPC113",
-        "give `inertia`, or the parts",
+        "give `inertia`, or the slewing parts",
     ),
     "parts without inertia": (
         {
@@ -128,7 +128,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     ),
     "power without speed": ({"motor__speed": None}, "SPC113", "the rated torque is power over speed"),
     "two start inputs": ({"cycle__start_time": "4 s", "cycle__start_angle": "5 deg"}, "SPC113", "not both"),
-    "stop longer than the rotation": ({"cycle__brake_angle": "190 deg"}, "SPC113", "longer than the whole rotation"),
+    "stop longer than the rotation": ({"cycle__brake_angle": "190 deg"}, "SPC113", "exceeds the whole slewing angle"),
     "ring curve out of order": (
         {"ring": {"curve": [{"axial": "5 kN", "moment": "3 kN*m"}, {"axial": "2 kN", "moment": "3 kN*m"}]}},
         "SPC113",
@@ -176,7 +176,7 @@ def test_a_load_heavier_than_the_whole_inertia_is_refused() -> None:
 def test_a_slope_needs_the_masses() -> None:
     ((code, message, _),) = problems(changed(COURSE, slope="1 deg"))
     assert code == "SPC113"
-    assert "the weights that turn on a slope are not known" in message
+    assert "an inertia does not determine the weights on a slope" in message
 
 
 # -- what is said of sound files ------------------------------------------------------------------------------------
@@ -219,7 +219,7 @@ def test_a_start_that_fits_its_torque_is_not_warned_of() -> None:
 
 def test_a_motor_of_another_speed_is_told() -> None:
     (warning,) = loaded(changed(YARD, speed="2 rpm")).diagnostics
-    assert "motor and gear turn the crane at 1 rpm, the file states 2 rpm" in warning.message
+    assert "motor and gear result in a slewing speed of 1 rpm, the file states 2 rpm" in warning.message
 
 
 def test_a_coupling_that_is_not_given_is_assumed() -> None:

@@ -168,7 +168,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "inertia.points",
         "points:",
         "span a cycle of 360 deg or more",
-        "leave out the point at the end",
+        "delete the point at the end",
     ),
     "a curve through points that falls below 0": (
         file(TABLE, DRIVE),
@@ -176,8 +176,8 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "inertia: 35 kg*m^2}\n    - {angle: 95 deg, inertia: 0.01 kg*m^2}\n    - {angle: 270 deg, inertia: 32 kg*m^2}",
         "inertia.points",
         "points:",
-        "the smooth curve through the points falls to",
-        "give more points",
+        "the smooth curve through the points decreases to",
+        "add points",
     ),
     "a rod that is too short": (
         file(CRANK, DRIVE),
@@ -185,7 +185,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "rod_length: 60 mm",
         "inertia.rod_length",
         "rod_length:",
-        "the crank cannot turn round",
+        "the crank cannot rotate fully",
         "check the three lengths",
     ),
     "an offset that the rod does not reach": (
@@ -194,7 +194,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "rod_length: 480 mm\n  offset: -420 mm\n",
         "inertia.rod_length",
         "rod_length:",
-        "the crank cannot turn round",
+        "the crank cannot rotate fully",
         "check the three lengths",
     ),
     "a sector that ends before it begins": (
@@ -203,7 +203,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "to: 90 deg",
         "load.sectors[0].to",
         "to: 90 deg",
-        "ends where it begins or before",
+        "ends at or before its start",
         "`to: 450 deg`",
     ),
     "a sector of no width": (
@@ -212,7 +212,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "to: 270 deg",
         "load.sectors[0].to",
         "to: 270 deg",
-        "ends where it begins or before",
+        "ends at or before its start",
         "`to: 630 deg`",
     ),
     "a sector wider than a cycle": (
@@ -222,7 +222,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "load.sectors[0]",
         "{from: 270",
         "wider than a cycle of 360 deg",
-        "the angle after which the whole machine repeats itself",
+        "the period of the whole machine",
     ),
     "angles of a load that fall": (
         file(CONSTANT, DRIVE, OVER_ANGLE),
@@ -240,7 +240,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "load.points",
         "points:",
         "span a cycle of 360 deg or more",
-        "leave out the point at the end",
+        "delete the point at the end",
     ),
     "distances that fall": (
         file(CRANK, DRIVE, TOOL),
@@ -267,7 +267,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "potential[0].points",
         "points:",
         "span a cycle of 360 deg or more",
-        "leave out the point at the end",
+        "delete the point at the end",
     ),
     "a tool on a constant inertia": (
         file(CONSTANT, DRIVE, SECTORS),
@@ -275,7 +275,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         TOOL,
         "load.type",
         "type: tool_force",
-        "only a slider-crank has a tool that a force can act on",
+        "only a slider-crank has a tool for a force",
         "`inertia: {type: slider_crank, ...}`",
     ),
     "a spring at the tool of a table": (
@@ -284,7 +284,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         BALANCE,
         "potential[0].type",
         "type: tool_spring",
-        "only a slider-crank has a tool that a spring can act on",
+        "only a slider-crank has a tool for a spring",
         "`inertia: {type: slider_crank, ...}`",
     ),
     "a slider-crank that does not repeat itself": (
@@ -293,7 +293,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle: 540 deg\n" + CRANK,
         "cycle_angle",
         "cycle_angle:",
-        "the slider-crank does not come again after 540 deg",
+        "the slider-crank has no period of 540 deg",
         "`360 deg` for most",
     ),
     "a harmonic that does not repeat itself": (
@@ -302,7 +302,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle: 120 deg\n" + HARMONICS,
         "cycle_angle",
         "cycle_angle:",
-        "the harmonic of order 2 does not come again after 120 deg",
+        "the harmonic of order 2 has no period of 120 deg",
         "`360 deg` for most",
     ),
     "an unbalance that does not repeat itself": (
@@ -311,7 +311,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle: 180 deg\n" + CONSTANT,
         "cycle_angle",
         "cycle_angle:",
-        "the unbalance does not come again after 180 deg",
+        "the unbalance has no period of 180 deg",
         "`360 deg` for most",
     ),
     "a wave of the weights that does not repeat itself": (
@@ -320,7 +320,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle: 100 deg\n" + CONSTANT,
         "cycle_angle",
         "cycle_angle:",
-        "the harmonic of order 3 does not come again after 100 deg",
+        "the harmonic of order 3 has no period of 100 deg",
         "`360 deg` for most",
     ),
     "an efficiency that nothing uses": (
@@ -374,7 +374,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "{type: steady}\n  - {type: steady, load: idle}",
         "scenes[2]",
         "{type: steady, load: idle}",
-        "two scenes are called `steady`",
+        "two scenes have the name `steady`",
         "give this one a `name:` of its own",
     ),
 }
@@ -441,28 +441,28 @@ DISAGREEING = [
         file("speed: 11 rad/s\n", CONSTANT, DRIVE),
         "speed",
         "11 rad/s",
-        "motor and gear give 95.49 rpm without load, the file states 105",
+        "motor and gear result in 95.49 rpm without load, the file states 105",
         ("speed: 11 rad/s", "speed: 10 rad/s"),
     ),
     (
         file("speed: 8 rad/s\n", CONSTANT, DRIVE),
         "speed",
         "8 rad/s",
-        "motor and gear give 95.49 rpm without load, the file states 76",
+        "motor and gear result in 95.49 rpm without load, the file states 76",
         ("ratio: 10", "ratio: 12"),
     ),
     (
         file(CONSTANT, DRIVE, SCENES.replace("run_up", "run_up, to: 10 rad/s")),
         "scenes[0].to",
         "10 rad/s}",
-        "where the motor gives no torque any more",
+        "where the motor torque is zero",
         ("to: 10 rad/s", "to: 9.9 rad/s"),
     ),
     (
         file(CONSTANT, DRIVE, WEIGHT.replace("4 kg", "400 kg"), "brake: {torque: 190 N*m, delay: 0 s}\n"),
         "brake.torque",
         "190 N*m",
-        "more than brake and friction hold",
+        "above the holding torque of brake and friction",
         ("torque: 190", "torque: 200"),
     ),
     (

@@ -45,28 +45,33 @@ def test_a_template_is_sound(word: str) -> None:
     [
         (OVERHEAD, {"trolley__position": "17 m"}, ("trolley", "position"), "beyond the bridge"),
         (OVERHEAD, {"trolley__position": "16.5 m"}, ("trolley", "position"), "beyond the bridge"),
-        (OVERHEAD, {"carriage__lowest": "0.2 m"}, ("carriage", "lowest"), "below the column"),
+        (OVERHEAD, {"carriage__lowest": "0.2 m"}, ("carriage", "lowest"), "below the mast"),
         (OVERHEAD, {"column__foot": "0 m", "carriage__lowest": "-0.2 m"}, ("carriage", "lowest"), "at least 0 m"),
-        (OVERHEAD, {"carriage__highest": "6.5 m"}, ("carriage", "highest"), "above the column, whose head is at 6.3 m"),
-        (RACK, {"carriage__lowest": "0.1 m"}, ("carriage", "lowest"), "below the column"),
+        (OVERHEAD, {"carriage__highest": "6.5 m"}, ("carriage", "highest"), "above the mast head at 6.3 m"),
+        (RACK, {"carriage__lowest": "0.1 m"}, ("carriage", "lowest"), "below the mast"),
         (RACK, {"carriage__lowest": "9 m", "carriage__highest": "4 m"}, ("carriage", "highest"), "not above `lowest`"),
         (OVERHEAD, {"bridge__girder_vertical": None}, ("bridge",), "`girder_vertical` of one girder is missing"),
         (OVERHEAD, {"column__second_moment": None}, ("column",), "give `second_moment`"),
         (RACK, {"column__stiffness": "150 kN/m"}, ("column", "second_moment"), "not both"),
-        (OVERHEAD, {"column__top_guide": {"rating": "5 kN"}}, ("column", "top_guide"), "hangs"),
+        (OVERHEAD, {"column__top_guide": {"rating": "5 kN"}}, ("column", "top_guide"), "suspended"),
         (RACK, {"base__column": "5 m"}, ("base", "column"), "beyond the wheels"),
         (RACK, {"base__centre": "5 m"}, ("base", "centre"), "beyond the wheels"),
         (RACK, {"travel__driving_force": "5 kN"}, ("travel", "driving_force"), "not both"),
-        (RACK, {"travel__deceleration": None}, ("travel",), "nothing stops it"),
+        (RACK, {"travel__deceleration": None}, ("travel",), "no brake"),
         (
             OVERHEAD,
             {"bridge_travel__braking_force": None, "bridge_travel__braking_rise": None},
             ("bridge_travel",),
-            "stops",
+            "no brake",
         ),
         (OVERHEAD, {"bridge_travel__ramp_rise": "1 s"}, ("bridge_travel", "ramp_rise"), "no ramp"),
         (RACK, {"travel__braking_rise": "1 s"}, ("travel", "braking_rise"), "no `braking_force`"),
-        (RACK, {"hoisting__rope__falls": 3, "hoisting__rope__ropes": 2}, ("hoisting", "rope", "falls"), "share out"),
+        (
+            RACK,
+            {"hoisting__rope__falls": 3, "hoisting__rope__ropes": 2},
+            ("hoisting", "rope", "falls"),
+            "be divided",
+        ),
         (RACK, {"hoisting__rope__efficiency": 0.9, "hoisting__rope__sheave_efficiency": 0.9}, None, "not both"),
         (RACK, {"hoisting__rope__area": "60 mm^2"}, ("hoisting", "rope"), "`length` is missing"),
         (RACK, {"hoisting__drive": {"largest_force": "5 kN"}}, ("hoisting", "drive"), "reduced_mass"),
@@ -137,7 +142,7 @@ def test_a_caught_fork_needs_a_drive_and_a_rope_that_gives() -> None:
 
 @pytest.mark.parametrize(
     ("height", "says"),
-    [("0.1 m", "below the column"), ("13 m", "above the column"), ("11.9 m", "its path is from 0.5 m to 11 m")],
+    [("0.1 m", "below the mast"), ("13 m", "above the mast"), ("11.9 m", "its path is from 0.5 m to 11 m")],
 )
 def test_a_scene_with_the_carriage_where_it_does_not_come(height: str, says: str) -> None:
     scene = {"type": "brake", "height": height}
@@ -157,7 +162,7 @@ def test_a_mechanism_of_the_other_machine(word: str, mechanism: str) -> None:
 def test_nothing_starts_a_bridge_that_only_stops() -> None:
     data = changed(template(OVERHEAD), bridge_travel__driving_force=None, bridge_travel__driving_rise=None)
     assert faults(data) == []
-    assert "nothing starts the bridge" in faults({**data, "scenes": [{"type": "start"}]})[0].message
+    assert "the bridge has no drive" in faults({**data, "scenes": [{"type": "start"}]})[0].message
 
 
 def test_all_faults_are_said_at_once() -> None:

@@ -64,7 +64,7 @@ def test_a_trolley_before_the_bridge_unless_on_a_cantilever() -> None:
 
 def test_a_trolley_that_stops_before_it_starts() -> None:
     found = faulty(crane(trolley__nearest="15 m", trolley__farthest="3 m"), "trolley", "farthest")
-    assert "nearer to rail A" in found.message
+    assert "closer to rail A" in found.message
 
 
 def test_a_trolley_only_on_the_far_half() -> None:
@@ -114,7 +114,7 @@ def test_a_trolley_needs_its_gauge() -> None:
 
 def test_nothing_stops_it() -> None:
     found = faulty(crane(drive__brake=None, drive__deceleration=None), "drive")
-    assert "nothing stops the machine" in found.message
+    assert "the machine has no brake" in found.message
 
 
 def test_a_brake_that_is_not_there() -> None:

@@ -64,8 +64,8 @@ def _of_a_conveyor(spec: ChainDrive, layout: ConveyorLayout) -> Iterator[Finding
     if abs(pull / takeup.tension - 1) > _WEIGHT_TOLERANCE:
         yield Finding(
             "SPC201",
-            f"a take-up weight on two falls pulls with half of it, {units.show(pull, units.FORCE)}; the tension is"
-            f" {units.show(takeup.tension, units.FORCE)}",
+            f"a take-up weight on two falls results in half of its weight force, {units.show(pull, units.FORCE)};"
+            f" the tension is {units.show(takeup.tension, units.FORCE)}",
             ("layout", "takeup", "mass"),
             f"write `mass: {units.show(2 * takeup.tension / spec.gravity, units.MASS)}`, or correct the tension",
         )
@@ -81,7 +81,7 @@ def _of_two_shafts(spec: ChainDrive, layout: TwoShafts) -> Iterator[Finding]:
     if not fits and abs(exact - layout.pitches) > _PITCHES_TOLERANCE:
         yield Finding(
             "SPC201",
-            f"shafts {units.show(layout.centre_distance, units.LENGTH)} apart take {exact:.1f} pitches of chain",
+            f"a centre distance of {units.show(layout.centre_distance, units.LENGTH)} requires {exact:.1f} pitches",
             ("layout", "pitches"),
             f"write `pitches: {chain_selection.even_pitches(exact)}`, or correct the distance",
         )

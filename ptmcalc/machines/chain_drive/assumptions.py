@@ -43,14 +43,14 @@ _OF_THE_CHAIN: tuple[Assumption[ChainDrive], ...] = (
         units.RATIO,
         _needs_ratio,
         lambda spec: Interval(0.03, 0.08),
-        "chains of conveyors: 0.03 to 0.08 of critical in the first mode; measure it",
+        "conveyor chains: damping ratio 0.03 to 0.08 in the first mode; measure it",
     ),
     Assumption(
         ("chain", "unevenness"),
         units.RATIO,
         lambda spec: 1.2 if spec.chain.count > 1 else None,
         lambda spec: Interval(1.1, 1.25),
-        "parallel chains share unevenly by 1.1 to 1.25",
+        "load distribution factor of parallel chains 1.1 to 1.25",
     ),
 )
 
@@ -73,14 +73,14 @@ _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
         units.INERTIA,
         lambda spec: 0.0 if spec.drive is not None and _has(spec, Start, Stopping) else None,
         _sprocket,
-        "left out; seldom above 5 % of the rotors' inertia on the shaft of the drive sprocket",
+        "neglected; seldom above 5 % of the rotor inertia at the shaft of the drive sprocket",
     ),
     Assumption(
         ("layout", "resistance", "turn_factor"),
         units.RATIO,
         lambda spec: 1.1,
         lambda spec: Interval(1.05, 1.2),
-        "turns round two sprockets take 5 to 20 % of the resistances",
+        "deflections at two sprockets cause 5 to 20 % of the resistances",
     ),
     Assumption(
         ("layout", "resistance", "start_factor"),
@@ -95,7 +95,7 @@ _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
         units.RATIO,
         lambda spec: 0.8 if _has(spec, Stopping) or any(asks_for_hold(spec, one) for one in spec.all_scenes) else None,
         lambda spec: Interval(0.6, 1.0),
-        "running and warm, a chain resists by 0.6 to 1 of its design resistance",
+        "a warm running chain has 0.6 to 1 times its design resistance",
     ),
 )
 
@@ -105,7 +105,7 @@ _MOVED: tuple[Assumption[ChainDrive], ...] = (
         units.INERTIA,
         lambda spec: 0.0 if spec.drive is not None and _has(spec, Start, Stopping) else None,
         _sprocket,
-        "left out; seldom above 5 % of the rotors' inertia on the same shaft",
+        "neglected; seldom above 5 % of the rotor inertia at the same shaft",
     ),
 )
 
@@ -139,7 +139,7 @@ def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
             units.INERTIA,
             lambda spec: 0.15 * rotor,
             lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
-            "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+            "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
         )
     if spec.wear is not None:
         yield Assumption(

@@ -40,16 +40,16 @@ smaller value rejects rounded diameters, a larger one accepts outer diameters an
 
 
 class Damping(Fragment):
-    """How the chain damps its own vibration."""
+    """Internal damping of the chain."""
 
     law: Literal["kelvin_voigt", "hysteretic", "zener"] = "kelvin_voigt"
-    """`kelvin_voigt`: grows with the frequency; `hysteretic`: the same at all; `zener`: strongest at one"""
+    """`kelvin_voigt`: increases with frequency; `hysteretic`: constant; `zener`: maximum at one frequency"""
     ratio: Annotated[Fraction | None, Assumed()] = None
     """damping ratio of the first natural frequency; 0.05 is assumed when it is left out"""
     time: Annotated[PositiveTime | None, OneOf("ratio")] = None
     """retardation time (kelvin_voigt, instead of `ratio`) or relaxation time (zener)"""
-    stiffening: Annotated[PositiveRatio | None, OneOf("a law that needs none")] = None
-    """zener: by what share a fast pull finds the chain stiffer than a slow one"""
+    stiffening: Annotated[PositiveRatio | None, OneOf("a law without this key")] = None
+    """zener: relative increase of the stiffness under rapid loading"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -63,7 +63,9 @@ class Damping(Fragment):
                 yield Conflict(("ratio",), "`zener` damps by `time` and `stiffening`", "delete `ratio`")
             return
         if "stiffening" in given:
-            yield Conflict(("stiffening",), "only `zener` stiffens", "delete `stiffening`, or write `law: zener`")
+            yield Conflict(
+                ("stiffening",), "only `zener` has a stiffening", "delete `stiffening`, or write `law: zener`"
+            )
         if law == KELVIN_VOIGT:
             yield from at_most_one(given, "ratio", "time")
         elif law == HYSTERETIC and "time" in given:
@@ -71,34 +73,34 @@ class Damping(Fragment):
 
 
 class ChainData(Fragment):
-    """The chain: all chains that run side by side are one strand."""
+    """The chain; parallel chains together are one strand."""
 
     pitch: PositiveLength
-    """distance of the joints"""
+    """chain pitch"""
     mass: PositiveLineMass
     """of one strand with its plates, flights or slats, without load"""
     count: Annotated[int, Field(ge=1, le=64, strict=True), Absent("one chain, as the file describes one")] = 1
-    """chains side by side, or rows of a multiple roller chain, in a strand"""
+    """parallel chains, or rows of a multiplex roller chain, in a strand"""
     unevenness: Annotated[FactorFromOne | None, Assumed()] = None
-    """share of the most loaded of several chains over an even one; 1.2 is assumed when left out, 1 for one chain"""
+    """load of the most loaded parallel chain / mean load; 1.2 is assumed when left out, 1 for one chain"""
     breaking_load: PositiveForce
     """of one chain"""
     stiffness: Annotated[PositiveForce | None, OneOf("section")] = None
     """tensile stiffness EA of one chain (force over strain), or give `section`"""
     section: Annotated[PositiveArea | None, OneOf("stiffness")] = None
-    """of the plates of one chain at their narrowest; with `modulus` it gives the stiffness, and stresses follow"""
+    """minimum plate section of one chain; determines the stiffness with `modulus`, and the stresses"""
     modulus: Annotated[PositiveStress | None, Assumed()] = None
-    """effective modulus of the built-up chain on `section`; 0.65 of steel's is assumed when it is left out"""
+    """effective modulus of the built-up chain on `section`; 0.65 times that of steel is assumed when left out"""
     damping: Damping = Damping()
-    """its internal damping"""
+    """internal damping"""
     pin_diameter: Annotated[PositiveLength | None, Checked()] = None
-    """of the joints; needed for pressure and wear"""
+    """pin diameter; needed for pressure and wear"""
     bush_length: Annotated[PositiveLength | None, Limit()] = None
-    """bearing length of a joint; needed for pressure"""
+    """bearing length of pin and bush; needed for pressure"""
     strength: Annotated[PositiveStress | None, Limit()] = None
-    """tensile strength of the plates; counts the mean stress in the check of fatigue"""
+    """tensile strength of the plates; accounts for the mean stress in the fatigue check"""
     fatigue_limit: Annotated[PositiveStress | None, Limit()] = None
-    """stress amplitude the plates bear for the passes of the required life; needed to check fatigue"""
+    """permissible stress amplitude of the plates for the required life; needed to check fatigue"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -115,9 +117,9 @@ class Sprocket(Fragment):
     teeth: Annotated[int, Field(strict=True, examples=[8])]
     """number of teeth"""
     diameter: Annotated[PositiveLength | None, OneOf("teeth and pitch")] = None
-    """pitch diameter, through the pins; p/sin(pi/z) when left out, and compared with it when given"""
+    """pitch diameter, through the pins; default: p/sin(pi/z), compared with it when given"""
     inertia: Annotated[Inertia | None, Assumed()] = None
-    """on its own shaft, shaft and all; 0 when left out"""
+    """on its own shaft, shaft included; 0 when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -133,7 +135,7 @@ def wrong_teeth(given: Given) -> Iterator[Conflict]:
         return
     if number < LEAST_TEETH:
         reason = (
-            f"{number} teeth do not make a sprocket: the chain would turn by {360 / max(number, 1):.0f} deg a tooth"
+            f"a sprocket cannot have {number} teeth: the chain would turn by {360 / max(number, 1):.0f} deg per tooth"
         )
         yield Conflict(("teeth",), reason, "write `teeth: 8`; traction chains run on 6 and more, roller chains on 17")
     elif number > MOST_TEETH:
@@ -155,7 +157,7 @@ def wrong_size(given: Given, pitch: float | None, path: tuple[str, ...]) -> Iter
     where = (*path, "diameter")
     if diameter <= pitch:
         size, step = units.show(diameter, units.LENGTH), units.show(pitch, units.LENGTH)
-        reason = f"a pitch of {step} is no smaller than the sprocket itself, {size}"
+        reason = f"a pitch of {step} is not smaller than the sprocket diameter, {size}"
         yield Conflict(where, reason, "correct the pitch or the diameter")
     elif teeth is not None:
         fits = 2 * sprocket.pitch_radius(pitch, teeth)
@@ -169,15 +171,15 @@ class TailSprocket(Fragment):
     """The sprocket at the other end of a conveyor."""
 
     teeth: Annotated[Annotated[int, Field(strict=True)] | None, Setting("as many as the drive sprocket")] = None
-    """number of teeth; those of the drive's when left out"""
+    """number of teeth; default: those of the drive sprocket"""
     diameter: Annotated[PositiveLength | None, OneOf("teeth and pitch")] = None
-    """pitch diameter, through the pins; p/sin(pi/z) when left out, and compared with it when given"""
+    """pitch diameter, through the pins; default: p/sin(pi/z), compared with it when given"""
     inertia: Annotated[Inertia | None, Assumed()] = None
-    """on its own shaft, shaft and all; 0 when left out"""
+    """on its own shaft, shaft included; 0 when left out"""
     driven: Literal["on", "off"] = "off"
-    """`on`: a drive of its own turns it at constant speed"""
+    """`on`: a second drive at constant speed"""
     phase: Annotated[Fraction | None, Setting("the worst phase when left out")] = None
-    """place in the pitch of the joints of a driven one, from those of the drive; the worst of all when left out"""
+    """phase of the link joints of a driven one, relative to the drive; the worst phase when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -193,32 +195,32 @@ class DrivenSprocket(Sprocket):
     inertia: PositiveInertia
     """of sprocket and driven machine, on this shaft"""
     phase: Annotated[Fraction | None, Setting("the worst phase when left out")] = None
-    """place in the pitch of its joints, from those of the driver; the worst of all when left out"""
+    """phase of its link joints relative to the driver; the worst phase when left out"""
 
 
 class Archard(Fragment):
     """Wear by pressure and sliding path."""
 
     coefficient: PositiveWearDepth
-    """depth of wear over pressure and path, at the reference pressure"""
+    """wear depth per pressure and sliding path, at the reference pressure"""
     reference_pressure: PositivePressure
     """of the test it comes from"""
     exponent: Annotated[float, Measure(units.RATIO, at_least=1, at_most=4), Setting("the linear law of Archard")] = 1.0
-    """of the pressure: 1 by Archard, 1.5 with scant and 3 with good lubrication by Reshetov"""
+    """of the pressure: 1 (Archard), 1.5 with poor and 3 with good lubrication (Reshetov)"""
 
 
 class Wear(Fragment):
-    """Wear of the joints."""
+    """Wear of the link joints."""
 
     coefficient: Annotated[PositiveWearRate | None, OneOf("archard")] = None
-    """of the textbook: wear over force, time and path, from tests at the speed of the machine; or give `archard`"""
+    """textbook coefficient: wear per force, time and path, from tests at the speed of the machine; or give `archard`"""
     archard: Archard | None = None
     """another model, by pressure and sliding path"""
     tensions: Literal["sum", "mean"] = "sum"
-    """textbook: entering and leaving tensions of a sprocket count by their `sum` or their `mean` (twice the
+    """textbook: `sum` or `mean` of entering and leaving tension of a sprocket (mean: twice the
     life)"""
     elongation: Annotated[PositiveRatio | None, Assumed()] = None
-    """share of its length by which the chain may grow; 4 % is assumed when left out, 3 to 6 % is usual"""
+    """permissible wear elongation of the chain; 4 % is assumed when left out, 3 to 6 % is usual"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

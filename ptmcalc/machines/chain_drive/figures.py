@@ -38,7 +38,7 @@ def _between(spec: ChainDrive, loads: dict[str, float]) -> Iterator[Band]:
 FIGURES = (
     Figure(
         "polygon_over_speed",
-        "Polygon effect over the speed, with the ranges to keep away from",
+        "Polygon effect over the speed, with the resonance ranges to be avoided",
         ("run",),
         (Course("tension_dynamic_polygon"),),
         "polygon tension",
@@ -52,7 +52,7 @@ FIGURES = (
         ("start", "stop", "emergency_stop", "coast"),
         (
             Course("tension_start", title="entering tension at the drive"),
-            Course("tension_min", title="tension where it is least"),
+            Course("tension_min", title="tension at the position of the minimum"),
         ),
         "tension",
         moments=_MOMENTS,

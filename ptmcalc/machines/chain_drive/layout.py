@@ -29,31 +29,33 @@ Exponent = Annotated[float, Measure(units.RATIO, at_least=0, at_most=3)]
 
 
 class Resistance(Fragment):
-    """What resists the motion of a conveyor."""
+    """Resistance to motion of a conveyor."""
 
     coefficient: PositiveRatio
-    """resistance of the chain over its weight: 0.1 to 0.15 on rollers, 0.2 to 0.35 sliding"""
+    """resistance of the chain / its weight: 0.1 to 0.15 on rollers, 0.2 to 0.35 sliding"""
     load_coefficient: Annotated[PositiveRatio | None, Absent("the load rides on the chain")] = None
-    """resistance of the load over its weight where the chain drags it; `coefficient` when left out"""
+    """resistance of the dragged load / its weight; `coefficient` when left out"""
     turn_factor: Annotated[FactorFromOne | None, Assumed()] = None
-    """factor k on all resistances for the turns round sprockets and guides; 1.1 is assumed when it is left out"""
+    """factor k on all resistances for deflection at sprockets and guides; 1.1 is assumed when it is left out"""
     force: Annotated[Force, Absent("no other resistance")] = 0.0
     """further resistance at the tail end: feeding, boot, cleaning"""
     start_factor: Annotated[FactorFromOne | None, Assumed()] = None
-    """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
+    """resistance at the start / resistance in motion; 1.2 is assumed when it is left out"""
     stop_factor: Annotated[Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None, Assumed()] = None
-    """lowest resistance there can be, running and warm, over that in motion: for stops and backstops; 0.8 is assumed
+    """lowest possible resistance of the warm machine / resistance in motion: for stops and backstops; 0.8 is assumed
     when it is left out"""
 
 
 class TakeUp(Fragment):
-    """What keeps the chain of a conveyor taut."""
+    """Take-up of the chain of a conveyor."""
 
     type: Literal["gravity", "screw"]
     """`gravity`: a weight next to the drive keeps the leaving tension; `screw`: a fixed length of loop"""
     tension: PositiveForce
     """of the strand: leaving tension (gravity), or the mean of the loop when it was set (screw)"""
-    mass: Annotated[PositiveMass | None, Absent("the take-up keeps its tension; its inertia is only bounded")] = None
+    mass: Annotated[
+        PositiveMass | None, Absent("the take-up tension is constant; its inertia is covered by a bound")
+    ] = None
     """of the weight with its carriage (gravity, on two falls); without it the tension stays constant"""
 
     @classmethod
@@ -70,11 +72,11 @@ class ConveyorLayout(Fragment):
     length: PositiveSpan
     """between the shafts, one strand"""
     lift: Annotated[SignedSpan, Absent("a level conveyor")] = 0.0
-    """height the load is raised by; negative when it is lowered"""
+    """lifting height of the load; negative when it is lowered"""
     load: Annotated[LineMass | None, OneOf("capacity")] = None
     """on the working strand, per length; or give `capacity`"""
     capacity: Annotated[MassFlow | None, OneOf("load")] = None
-    """stream of material, instead of `load`"""
+    """mass flow, instead of `load`"""
     resistance: Resistance
     """resistance to motion"""
     takeup: TakeUp
@@ -88,14 +90,14 @@ class ConveyorLayout(Fragment):
         yield from exactly_one(given, "load", "capacity")
         length, lift = given.number("length"), given.number("lift")
         if length is not None and lift is not None and abs(lift) > length:
-            yield Conflict(("lift",), "it rises more than it is long", "write a `lift` within the `length`")
+            yield Conflict(("lift",), "the lift exceeds the length", "write a `lift` within the `length`")
 
 
 _SLACK_SAG = Assumed(0.02, 0.01, 0.03, "slack strands of chain drives: sag 1 to 3 % of the span")
 
 
 class TwoShafts(Fragment):
-    """A drive: two sprockets, the tight strand between them."""
+    """A chain drive between two shafts."""
 
     type: Literal["drive"]
     driven: DrivenSprocket
@@ -103,7 +105,7 @@ class TwoShafts(Fragment):
     centre_distance: Annotated[PositiveLength | None, OneOf("pitches")] = None
     """of the shafts; follows from `pitches` when left out"""
     pitches: Annotated[Annotated[int, Field(ge=6, le=100_000, strict=True)] | None, OneOf("centre_distance")] = None
-    """length of the chain in pitches, even; follows from `centre_distance`, rounded up to even, when left out"""
+    """chain length in pitches, even; default: from `centre_distance`, rounded up to even"""
     cranked_link: Literal["yes", "no"] = "no"
     """an odd number of pitches, closed by a cranked link, which has 80 % of the breaking load"""
     power: Annotated[PositivePower | None, OneOf("torque")] = None
@@ -111,15 +113,15 @@ class TwoShafts(Fragment):
     torque: Annotated[PositiveTorque | None, OneOf("power")] = None
     """on the driven shaft, instead of `power`"""
     slack_sag: Annotated[PositiveRatio, _SLACK_SAG] = 0.02
-    """sag of the slack strand over its length; 1 to 3 % is usual"""
+    """sag of the slack strand / its length; 1 to 3 % is usual"""
     rated_power: Annotated[PositivePower | None, Limit()] = None
-    """of one chain on 19 teeth at this speed, from the maker's chart; needed to check the choice of chain"""
+    """of one chain on 19 teeth at this speed, from the manufacturer's chart; needed to check the design power"""
     service_factor: Annotated[FactorFromOne | None, Assumed()] = None
     """f_1 of ISO 10823 for driver and driven machine, 1 to 2.1; 1.4 is assumed when it is left out"""
     tooth_exponent: Annotated[Exponent, Setting("ISO 10823: 1.08")] = 1.08
     """of the tooth factor (19/z_1)^e: 1.08 by ISO 10823, 1 in some course cards"""
     strand_factor: Annotated[PositiveRatio | None, Limit()] = None
-    """capacity of the rows of chain over that of one; by ACA 1, 1.7, 2.5 for one, two, three when left out"""
+    """capacity of the multiplex chain / simplex chain; default by ACA: 1, 1.7, 2.5 for one, two, three rows"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -130,7 +132,7 @@ class TwoShafts(Fragment):
         pitches = given.raw.get("pitches")
         if isinstance(pitches, int) and not isinstance(pitches, bool) and pitches % 2 == 1:
             if given.word("cranked_link") != "yes":
-                reason = f"{pitches} pitches do not close: inner and outer links alternate"
+                reason = f"an odd number of {pitches} pitches cannot be closed: inner and outer links alternate"
                 hint = f"write `pitches: {even(pitches)}`, or `cranked_link: yes`"
                 yield Conflict(("pitches",), reason, hint)
         elif given.word("cranked_link") == "yes":

@@ -60,36 +60,38 @@ class Brake(Fragment):
     torque: PositiveTorque
     """braking torque when fully applied"""
     shaft: Literal["sprocket", "motor"] = "motor"
-    """the shaft it sits on; on the motor's the gear's ratio and losses add to it"""
+    """shaft of the brake; on the motor shaft, gear ratio and gear losses increase its effect"""
     delay: Annotated[Time, Assumed(0.0, 0.0, 0.4, "brakes released by a thruster close within 0.2 to 0.4 s")] = 0.0
-    """from the command until it begins to act"""
+    """from the command to the start of the braking torque"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
-    """from then until its full torque, rising straight"""
+    """from then to full torque, linear rise"""
 
 
 class Backstop(Fragment):
-    """A device that keeps a loaded conveyor from running back."""
+    """Backstop (holdback) of a loaded inclined conveyor."""
 
     torque: PositiveTorque
-    """what it holds, on the sprocket shaft"""
+    """rated torque, on the sprocket shaft"""
     reserve: Annotated[FactorFromOne, Limit()] = USUAL_RESERVE
-    """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
+    """rated torque / rollback torque; 1.25 to 1.75 in practice"""
 
 
 class Equalising(Fragment):
     """A drive that varies the sprocket speed to keep the chain speed constant."""
 
-    residual: Annotated[Fraction, Assumed(0.0, 0.0, 0.1, "equalising sprockets: up to a tenth is left")] = 0.0
-    """what is left of the polygon effect, as a share of it: how imperfectly the law is followed"""
+    residual: Annotated[
+        Fraction, Assumed(0.0, 0.0, 0.1, "equalising sprockets: up to 10 % of the fluctuation remains")
+    ] = 0.0
+    """residual share of the polygon effect due to an imperfect drive law"""
 
 
 class Operating(Fragment):
-    """Range of speeds the drive is run at,."""
+    """Speed range of the drive."""
 
     lowest: PositiveSpeed
-    """slowest chain speed"""
+    """minimum chain speed"""
     highest: PositiveSpeed
-    """fastest chain speed"""
+    """maximum chain speed"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -100,58 +102,58 @@ class Operating(Fragment):
 
 
 class ResonanceLimit(Fragment):
-    """What counts as too near a resonance."""
+    """Limits of the resonance check."""
 
     band: Annotated[PositiveShare, Limit()] = 0.15
-    """how near to a resonance speed, as a share of it; twice the damping ratio where that is more"""
+    """minimum separation from a resonance speed, relative to it; at least twice the damping ratio"""
     weight: Annotated[PositiveRatio, Limit()] = 0.5
-    """force of a tooth harmonic in resonance, over m a_max, from which on it matters"""
+    """minimum force of a relevant tooth harmonic in resonance, relative to m a_max"""
 
 
 class ChainChecks(CheckSettings):
     """Limits of the checks of a chain drive; None stands for the default of the layout."""
 
     resonance: ResonanceLimit = ResonanceLimit()
-    """how far the speed keeps from resonances"""
+    """required separation of the speed from resonances"""
     safety_static: Annotated[PositiveRatio | None, Limit()] = None
-    """breaking load over static and centrifugal tension; 10 for conveyors, 7 for drives when left out"""
+    """breaking load / (static + centrifugal tension); 10 for conveyors, 7 for drives when left out"""
     safety_dynamic: Annotated[PositiveRatio | None, Limit()] = None
-    """breaking load over the largest tension of steady running; 7 for conveyors, 5 for drives when left out"""
+    """breaking load / maximum tension of steady running; 7 for conveyors, 5 for drives when left out"""
     safety_start: Annotated[PositiveRatio, Limit()] = 5.0
-    """breaking load over the largest tension of a start or stop"""
+    """breaking load / maximum tension of a start or stop"""
     joint_pressure: Annotated[PositivePressure | None, Limit()] = None
-    """largest pressure in the joints; 20 to 30 MPa is usual"""
+    """maximum pin/bush bearing pressure; 20 to 30 MPa is usual"""
     wrap: Annotated[PositiveAngle, Limit()] = 2.0943951023931953
-    """smallest wrap of a sprocket; 120 deg by handbooks"""
+    """minimum wrap angle of a sprocket; 120 deg by handbooks"""
     teeth: Annotated[Annotated[int, Field(ge=1, strict=True)] | None, Limit()] = None
-    """fewest teeth; 6 for conveyors, 17 for drives when left out"""
+    """minimum number of teeth; 6 for conveyors, 17 for drives when left out"""
     ratio: Annotated[PositiveRatio, Limit()] = 6.0
-    """largest ratio of the teeth of a drive"""
+    """maximum transmission ratio of a drive"""
     centre_distance_least: Annotated[PositiveRatio, Limit()] = 30.0
-    """smallest distance of the shafts of a drive, in pitches"""
+    """minimum centre distance of a drive, in pitches"""
     centre_distance_most: Annotated[PositiveRatio, Limit()] = 80.0
-    """largest distance of the shafts of a drive without support of the strands, in pitches"""
+    """maximum centre distance of a drive with unsupported strands, in pitches"""
     least_tension: Annotated[Force, Limit()] = 0.0
-    """smallest tension of a strand in steady running"""
+    """minimum tension of a strand in steady running"""
     life: Annotated[RunningTime | None, Limit()] = None
     """required life; needed to check wear and fatigue"""
     fatigue: Annotated[PositiveRatio, Limit()] = 1.0
-    """largest use of the permissible stress amplitude"""
+    """maximum utilisation of the permissible stress amplitude"""
     start_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest start"""
+    """maximum starting time"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None
     """maximum stopping distance of the chain in a `stop`"""
     emergency_stop_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """maximum stopping distance of the chain in an `emergency_stop`; `stop_distance` where it is left out"""
+    """maximum stopping distance of the chain in an `emergency_stop`; default: `stop_distance`"""
     stop_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest time of any stop"""
+    """maximum stopping time of any stop"""
 
 
 class ChainScene(Scene):
     """Base of the scenes of a chain drive."""
 
     load: Literal["full", "empty"] = "full"
-    """with its load or power, or without"""
+    """with load or power, or without"""
 
     def default_name(self) -> str:
         return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
@@ -164,13 +166,13 @@ class Run(ChainScene):
 
 
 class Start(ChainScene, TransientScene):
-    """A start from rest."""
+    """A start from standstill."""
 
     type: Literal["start"] = "start"
     profile: Profile = Profile()
     """how the drive starts; a torque step when left out"""
     chain: Literal["frozen", "relaxed"] = "frozen"
-    """initial state of the chain: with the tensions of running, or only that of the take-up after a long rest"""
+    """initial state: with the tensions of steady running, or only the take-up tension after a long standstill"""
 
 
 class Stopping(ChainScene, TransientScene):
@@ -178,7 +180,7 @@ class Stopping(ChainScene, TransientScene):
 
 
 class Stop(Stopping):
-    """The drive is switched off at full speed; the chain runs out, or is braked."""
+    """The drive is switched off at full speed; the chain coasts or is braked."""
 
     type: Literal["stop"] = "stop"
     brake: Literal["on", "off"] = "on"
@@ -186,7 +188,7 @@ class Stop(Stopping):
 
 
 class EmergencyStop(Stopping):
-    """The drive falls out at full speed and the brake comes in."""
+    """The drive is switched off at full speed and the brake is applied."""
 
     type: Literal["emergency_stop"] = "emergency_stop"
 
@@ -195,18 +197,20 @@ class Coast(Stopping):
     """The drive is switched off and no brake acts; the resistance is computed from a measured distance."""
 
     type: Literal["coast"] = "coast"
-    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value, which no check reads")] = None
-    """distance of a real run-out from the speed of the file"""
+    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value without influence on the checks")] = (
+        None
+    )
+    """measured coasting distance from the speed of the file"""
 
 
 class Hold(ChainScene):
-    """A loaded conveyor stands still with its drive off."""
+    """A loaded conveyor at standstill with its drive off."""
 
     type: Literal["backstop"] = "backstop"
 
 
 class SpeedRange(ChainScene):
-    """The speed rises (or falls) at a constant rate through a range, and through the resonances in it."""
+    """Speed sweep at a constant rate through a range, resonances included."""
 
     type: Literal["speed_range"] = "speed_range"
     start: PositiveSpeed = Field(alias="from")
@@ -214,7 +218,7 @@ class SpeedRange(ChainScene):
     end: PositiveSpeed = Field(alias="to")
     """chain speed at the end"""
     time: PositiveTime
-    """in which it changes"""
+    """duration of the sweep"""
 
 
 AnyScene = Annotated[Run | Start | Stop | EmergencyStop | Coast | Hold | SpeedRange, Field(discriminator="type")]
@@ -228,7 +232,7 @@ class ChainDrive(MachineSpec):
 
     kind: Literal["chain_drive"]
     layout: Layout
-    """where the chain runs and what it pulls: `type: conveyor` or `type: drive`"""
+    """layout of the conveyor or drive: `type: conveyor` or `type: drive`"""
     chain: ChainData
     """the chain"""
     sprocket: Annotated[Sprocket, Also("drive_sprocket")]
@@ -244,13 +248,13 @@ class ChainDrive(MachineSpec):
     brake: Brake | None = None
     """the brake"""
     backstop: Annotated[Backstop | None, Also("holdback")] = None
-    """what keeps an inclined conveyor from running back"""
+    """backstop (holdback) of an inclined conveyor"""
     wear: Wear | None = None
-    """wear of the joints; needed for the life"""
+    """wear of the link joints; needed for the life"""
     checks: ChainChecks = ChainChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; when left out a run, and a start where the drive is given, of conveyors loaded and
+    """load cases; default: a run, and a start if the drive is given, for conveyors loaded and
     empty"""
 
     @classmethod
@@ -298,12 +302,12 @@ def _of_layout(layout: Given, driver: Given | None, pitch: float | None) -> Iter
     distance, pitches = layout.number(apart), layout.raw.get("pitches")
     if distance is not None and distance <= least:
         room = units.show(least, units.LENGTH)
-        reason = f"the sprockets touch: their pitch radii together are {room}"
+        reason = f"the sprockets touch: the sum of their pitch radii is {room}"
         yield Conflict(("layout", named, apart), reason, "write about 40 pitches, or correct the pitch of the chain")
     elif isinstance(pitches, int):
         needed = chain_selection.chain_pitches(least, pitch, one, two)
         if pitches <= needed:
-            reason = f"{pitches} pitches do not reach round both sprockets, which touch at {needed:.1f}"
+            reason = f"{pitches} pitches are too few for both sprockets, which touch at {needed:.1f}"
             hint = f"write `pitches: {even(2 * needed)}`"
             yield Conflict(("layout", named, "pitches"), reason, hint)
 
@@ -322,7 +326,7 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             hint = "add `drive: {motor: {inertia: 0.35 kg*m^2, mean_starting_torque: 160 N*m}, gear: {ratio: 40}}`"
             yield Conflict(("scenes", index), reason, hint)
         if what == "backstop" and between_shafts:
-            yield Conflict(("scenes", index), "nothing runs back between two shafts", "delete the scene")
+            yield Conflict(("scenes", index), "a two-shaft drive does not roll back", "delete the scene")
         profile = scene.raw.get("profile") if scene and what == "start" else None
         if isinstance(profile, dict) and profile.get("shape") == "curve" and not _has_curve(given):
             hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"

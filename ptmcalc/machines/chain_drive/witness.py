@@ -144,16 +144,16 @@ def _loads(spec: ChainDrive, scene: Run, most: Sequence[Estimate], least: Sequen
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Largest and smallest dynamic tension of steady running at the run-on and at the tail, and what they do.
+    """Maximum and minimum dynamic tension of steady running at the entering strand and at the tail, and the loads
+    derived from them.
 
         q_k'' + 2 z_k w_k q_k' + w_k^2 q_k = -e_k a(t),   a = -Omega^2 R sin(Omega t - pi/z) over every pitch
         S = sum_i m_i (a + sum_k phi_ik q_k'')   over all that is beyond
 
-    **Range** strands that end in a constant tension, damped by Kelvin and Voigt, on a sprocket of even speed or of a
-    drive that gives way.
-    **Error** three times what a mesh differs by from one with half as many elements, or half of what that differs by
-    from the one before: a jump of the acceleration is of the first order in a mesh; and what every other one of the
-    looks at a course changes, four times what looks twice as close would.
+    **Range** strands that end in a constant tension, damped by Kelvin and Voigt, on a sprocket of constant speed or of
+    a compliant drive.
+    **Error** three times the difference to a mesh with half as many elements, or half of the difference of the two
+    coarser meshes: a jump of the acceleration converges with the first order. The sampling error is added.
     **Source** lumped elements; Timoshenko, Vibration Problems in Engineering; N. Yu. Dorokhov, lecture notes,
     Kramatorsk 2007, for the motion of the sprocket.
     """
@@ -267,14 +267,15 @@ def _course(forces: np.ndarray) -> FloatArray:
 
 
 def run_harmonics(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Largest and smallest dynamic tension of steady running at both ends and at the tail, and what they do.
+    """Maximum and minimum dynamic tension of steady running at both ends and at the tail, and the loads derived from
+    them.
 
         (mu_n K - w_n^2 M) z_n = (w_n^2 M - mu_n K) s_n,   S = m u'' + mu K u at a node,   mu the complex modulus
 
-    A far end whose joints pass at an unknown place is taken at the worst: the extremes of what each end moves add up.
+    A far end with an unknown phase of its link joints is assessed at the worst phase: the extremes of both ends add up.
 
     **Range** linear strands that stay taut, damped by any complex modulus.
-    **Error** as that of the mesh between two engagements, and four times what half of the harmonics change.
+    **Error** as that of the mesh between two engagements, and four times the change by half of the harmonics.
     **Source** lumped elements; Timoshenko, Vibration Problems in Engineering; N. Yu. Dorokhov, lecture notes,
     Kramatorsk 2007, for the motion of the sprocket.
     """

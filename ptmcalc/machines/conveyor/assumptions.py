@@ -119,7 +119,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         units.RATIO,
         lambda spec: 1.0 if _stops(spec) else None,
         lambda spec: Interval(_LIGHT_RUNNING, 1.0),
-        "DIN 22101: f from 0.016 in good to 0.027 in poor conditions; a belt that runs light stops later",
+        "DIN 22101: f from 0.016 in good to 0.027 in poor conditions; a lightly running belt stops later",
         frozenset({Stop, EmergencyStop, Coast}),
     ),
     Assumption(
@@ -127,7 +127,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         units.RATIO,
         lambda spec: AT_REST if any(asks_for_hold(spec, scene) for scene in spec.all_scenes) else None,
         lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
-        "practice for backstops: one half of the running resistance, none of loading points and cleaners",
+        "practice for backstops: half of the running resistance of the idlers, none of loading points and cleaners",
         loads=frozenset({"backstop_torque"}),
     ),
     Assumption(
@@ -142,14 +142,14 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         units.SHARE,
         lambda spec: 0.0 if spec.takeup.stroke is not None else None,
         lambda spec: Interval(0.0, _elongation(spec)),
-        "belt makers: 0.1 to 0.2 % of steel cord belts, 0.5 to 1.5 % of textile belts over their life",
+        "belt manufacturers: 0.1 to 0.2 % of steel cord belts, 0.5 to 1.5 % of textile belts over their life",
     ),
     Assumption(
         ("tail_drum", "diameter"),
         units.LENGTH,
         _tail_diameter,
         lambda spec: Interval(_SMALLER_TAIL * spec.main_drive.drum.diameter, spec.main_drive.drum.diameter),
-        "as the drive pulley's, or a smaller one of its series",
+        "equal to the drive pulley, or the next smaller pulley of the series",
     ),
 )
 
@@ -165,7 +165,7 @@ _OF_THE_TAIL: tuple[Assumption[Conveyor], ...] = (
             * (spec.tail_drum.diameter or spec.main_drive.drum.diameter) ** 2
             / 4,
         ),
-        "not given; seldom above 1 % of belt and load at the pulley surface",
+        "not given; seldom above 1 % of the mass of belt and load",
     ),
 )
 
@@ -231,12 +231,12 @@ def _of_a_drive(path: KeyPath, drive: Drive) -> Iterator[Assumption[Conveyor]]:
         units.INERTIA,
         lambda spec: 0.15 * rotor,
         lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
-        "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+        "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
     )
     yield Assumption(
         (*path, "drum", "inertia"),
         units.INERTIA,
         lambda spec: 0.0,
         lambda spec: Interval(0.0, _ROUGH_DRUM_SHARE * on_drum),
-        "left out; a shell drum is seldom above 5 % of the motors' inertia on the same shaft",
+        "neglected; a shell pulley seldom has more than 5 % of the motor inertia at the same shaft",
     )

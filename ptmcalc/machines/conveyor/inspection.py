@@ -32,8 +32,8 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
             whose = f" of `{name}`" if len(spec.all_drives) > 1 else ""
             yield Finding(
                 "SPC201",
-                f"motor speed, gear ratio and drum{whose} give {units.show(rim, units.SPEED)} at the pulley surface,"
-                f" the belt runs at {units.show(spec.speed, units.SPEED)}",
+                f"motor speed, gear ratio and pulley{whose} result in {units.show(rim, units.SPEED)} at the pulley"
+                f" surface, the belt runs at {units.show(spec.speed, units.SPEED)}",
                 ("speed",),
                 "correct the speed, the ratio or the diameter",
             )
@@ -41,17 +41,17 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
         if grip is not None and grip > _MOST_FRICTION:
             yield Finding(
                 "SPC201",
-                f"a friction coefficient of {grip:.4g} between belt and drum: rubber on dry lagging comes to 0.45, on"
-                " ceramic tiles to 0.8",
+                f"a friction coefficient of {grip:.4g} between belt and pulley: dry rubber lagging reaches 0.45,"
+                " ceramic lagging 0.8",
                 (*spec.drive_path(name), "drum", "friction"),
-                "write `friction: 0.35` for rubber lagging, or the maker's value",
+                "write `friction: 0.35` for rubber lagging, or the manufacturer's value",
             )
     pull = spec.takeup.mass * spec.gravity / 2 if spec.takeup.mass is not None else spec.takeup.tension
     if abs(pull / spec.takeup.tension - 1) > _WEIGHT_TOLERANCE:
         yield Finding(
             "SPC201",
-            f"a take-up weight on two falls pulls with half of it, {units.show(pull, units.FORCE)}; the tension is"
-            f" {units.show(spec.takeup.tension, units.FORCE)}",
+            f"a take-up weight on two falls results in half of its weight force, {units.show(pull, units.FORCE)};"
+            f" the tension is {units.show(spec.takeup.tension, units.FORCE)}",
             ("takeup", "mass"),
             f"write `mass: {units.show(2 * spec.takeup.tension / spec.gravity, units.MASS)}`, or correct the tension",
         )
@@ -77,14 +77,14 @@ def _of_curves(spec: Conveyor) -> Iterator[Finding]:
         path: KeyPath = ("route", "sections", index, "curve_radius")
         if part.curve_radius is not None and index + 1 not in curves:
             yield Finding(
-                "SPC201", "the section before has the same slope: nothing curves", path, "delete `curve_radius`"
+                "SPC201", "the section before has the same slope: there is no curve", path, "delete `curve_radius`"
             )
         if reach[index] + reach[index + 1] > part.length * (1 + 1e-9):
             taken, given = (units.show(value, units.SPAN) for value in (reach[index] + reach[index + 1], part.length))
             at = index if index + 1 in curves else index + 1
             yield Finding(
                 "SPC201",
-                f"the vertical curves at its ends take {taken} of section {index + 1}, which is {given} long",
+                f"the vertical curves at its ends require {taken}; section {index + 1} has a length of {given}",
                 ("route", "sections", at, "curve_radius"),
                 "write a smaller `curve_radius`, or longer sections",
             )
@@ -104,22 +104,22 @@ def _of_scenes(spec: Conveyor) -> Iterator[Finding]:
         if jumps(spec, scene):
             yield Finding(
                 "SPC201",
-                "a Kelvin-Voigt belt answers a drum that stops at once with an infinite force: the jam is computed"
+                "the force of a Kelvin-Voigt belt is infinite at a pulley that stops at once: the jam is computed"
                 " without damping",
                 path,
-                "write `time: 50 ms`, in which the drum comes to rest",
+                "write `time: 50 ms`, the stopping time of the pulley",
             )
         if isinstance(scene, EmergencyStop) and not spec.brakes:
             yield Finding(
                 "SPC201",
-                "there are no `brakes`: the belt runs out",
+                "there are no `brakes`: the belt coasts",
                 (*path, "type"),
                 "add `brakes: {disc: {torque: 3000 N*m}}`, or write `type: coast`",
             )
         if isinstance(scene, Start) and scene.profile.imposes_speed and late:
             yield Finding(
                 "SPC201",
-                f"an imposed speed turns all drums at once: the `delay` of `{late[0]}` does not count",
+                f"an imposed speed turns all pulleys at once: the `delay` of `{late[0]}` has no effect",
                 (*path, "profile"),
                 "write `control: torque`",
             )

@@ -40,7 +40,7 @@ class _Range:
         key, shown = self.path[-1], units.show(value, self.quantity)
         least, most = (units.show(one, self.quantity) for one in (self.least, self.most))
         reason = f"`{key}` is {shown}: belt conveyors have {least} to {most}"
-        yield Finding("SPC201", reason, self.path, f"check number and unit; usual is e.g. `{key}: {self.example}`")
+        yield Finding("SPC201", reason, self.path, f"check number and unit; a usual value is `{key}: {self.example}`")
 
 
 _OF_THE_BELT = (
@@ -74,7 +74,7 @@ def _of_a_drive(path: KeyPath, drive: PlacedDrive) -> Iterator[Finding]:
         yield from one.finding(value)
     if motor.speed is not None and motor.inertia * motor.speed > _SLOWEST_MOTOR * motor.mean_torque:
         time = units.show(motor.inertia * motor.speed / motor.mean_torque, units.TIME)
-        reason = f"the motor takes {time} to bring its own rotor to speed; real ones take 0.05 s to 5 s"
+        reason = f"the motor requires {time} to accelerate its own rotor; usual motors require 0.05 s to 5 s"
         yield Finding("SPC201", reason, (*path, "motor", "inertia"), "check `inertia` and the starting torque")
 
 
@@ -100,10 +100,10 @@ def _of_the_load(spec: Conveyor) -> Iterator[Finding]:
     share = mass / spec.belt.mass
     if share < _LEAST_LOAD:
         reason = f"the load of {units.show(mass, units.LINE_MASS)} is {100 * share:.2g} % of the mass of the belt"
-        yield Finding("SPC201", reason, ("load", key), f"check number and unit; usual is e.g. `{key}: {example}`")
+        yield Finding("SPC201", reason, ("load", key), f"check number and unit; a usual value is `{key}: {example}`")
     elif mass > _MOST_LOAD:
         reason = f"the load is {units.show(mass, units.LINE_MASS)}: belts carry up to 1500 kg/m"
-        yield Finding("SPC201", reason, ("load", key), f"check number and unit; usual is e.g. `{key}: {example}`")
+        yield Finding("SPC201", reason, ("load", key), f"check number and unit; a usual value is `{key}: {example}`")
 
 
 _MOST_LOAD = 10_000.0

@@ -18,10 +18,16 @@ def _safety(spec: Conveyor, scene: ConveyorScene, loads: Mapping[str, float]) ->
 
 
 RELATIONS: tuple[Relation, ...] = (
-    ordered("tension_max", "tension_run_on_max", _ANY, "the largest tension anywhere is at least that at the pulley"),
-    ordered("tension_run_off_min", "tension_min", _ANY, "the smallest tension anywhere is at most that at the pulley"),
+    ordered("tension_max", "tension_run_on_max", _ANY, "the maximum tension anywhere is at least that at the pulley"),
+    ordered("tension_run_off_min", "tension_min", _ANY, "the minimum tension anywhere is at most that at the pulley"),
     ordered(
         "stop_distance_max", "stop_distance", _STOPS, "the stopping distance of any point is at least that at the head"
     ),
-    computed("belt_safety_min", ("tension_max",), _safety, _ANY, "belt safety is breaking force over largest tension"),
+    computed(
+        "belt_safety_min",
+        ("tension_max",),
+        _safety,
+        _ANY,
+        "the belt safety factor is the breaking force divided by the maximum tension",
+    ),
 )

@@ -39,20 +39,20 @@ from ptmcalc.spec.shape import Also
 
 
 class DriveDrum(Fragment):
-    """The driven drum."""
+    """The drive pulley."""
 
     diameter: PositiveLength
-    """of the drum with its lagging"""
+    """of the pulley with its lagging"""
     wrap: PositiveAngle
     """wrap angle of the belt"""
     friction: Annotated[PositiveRatio | None, Limit()] = None
-    """friction coefficient between belt and drum; without it slip cannot be checked"""
+    """friction coefficient between belt and pulley; needed to check the traction"""
     inertia: Annotated[Inertia | None, Assumed()] = None
-    """of the drum on its own shaft; assumed 0 when left out"""
+    """of the pulley on its own shaft; assumed 0 when left out"""
 
 
 class Drive(Fragment):
-    """Motors, gear and drum at the head."""
+    """Motors, gear and pulley at the head."""
 
     motor: Motor
     """the motors"""
@@ -61,45 +61,45 @@ class Drive(Fragment):
     gear: Gear
     """the gear"""
     drum: Annotated[DriveDrum, Also("pulley")]
-    """the drive drum"""
+    """the drive pulley"""
 
 
 class PlacedDrive(Drive):
-    """One of several drives, each with a drum of its own."""
+    """One of several drives, each with its own pulley."""
 
     at: Literal["head", "tail"] = "head"
-    """where its drum is; those at the head stand in the order in which the belt meets them, the first on the tight
+    """position of its pulley; head drives in the sequence of the belt, the first on the tight
     side"""
-    delay: Annotated[Time, Absent("all drives are switched on at once, which gives the largest tensions")] = 0.0
-    """how much later than the first it is switched on in a start"""
+    delay: Annotated[Time, Absent("simultaneous switch-on of all drives results in the maximum tensions")] = 0.0
+    """start delay relative to the first drive"""
 
 
 class Brake(Fragment):
-    """A brake on a drum or on the motor shaft of its drive."""
+    """A brake on a pulley shaft or on the motor shaft of its drive."""
 
     at: Literal["head", "tail"] = "head"
-    """where it acts; on the last drum there"""
+    """position of the brake; on the last pulley there"""
     torque: PositiveTorque
     """braking torque when fully applied"""
     shaft: Literal["drum", "motor"] = "drum"
-    """the shaft it sits on; on the motor's the gear's ratio and losses add to it"""
+    """shaft of the brake; on the motor shaft, gear ratio and gear losses increase its effect"""
     delay: Annotated[Time, Assumed(0.0, 0.0, 0.4, "brakes released by a thruster close within 0.2 to 0.4 s")] = 0.0
-    """from the command until it begins to act; 0 is assumed when it is left out, and 0.4 s"""
+    """from the command to the start of the braking torque; 0 is assumed when it is left out, and 0.4 s"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
-    """from then until its full torque, rising linearly"""
+    """from then to full torque, linear rise"""
 
 
 class Backstop(Fragment):
-    """A device that keeps a loaded conveyor from running back."""
+    """Backstop (holdback) of a loaded inclined conveyor."""
 
     torque: PositiveTorque
-    """what it holds, on the drum shaft of the head"""
+    """rated torque, on the shaft of the head pulley"""
     reserve: Annotated[FactorFromOne, Limit()] = USUAL_RESERVE
-    """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
+    """rated torque / rollback torque; 1.25 to 1.75 in practice"""
 
 
 class TakeUp(Fragment):
-    """What keeps the belt taut."""
+    """Take-up of the belt."""
 
     type: Literal["gravity", "rigid"]
     """`gravity`: a weight next to the drive keeps the leaving tension; `rigid`: a screw or locked winch"""
@@ -116,16 +116,16 @@ class TakeUp(Fragment):
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Only a weight has a mass, and what hangs on two falls pulls with half of it."""
         if given.word("type") == "rigid" and "mass" in given:
-            yield Conflict(("mass",), "a rigid take-up does not move", "delete `mass`, or write `type: gravity`")
+            yield Conflict(("mass",), "a fixed take-up does not move", "delete `mass`, or write `type: gravity`")
 
 
 class TailDrum(Fragment):
-    """The drum at the tail."""
+    """The tail pulley."""
 
     inertia: Annotated[Inertia | None, Assumed()] = None
     """on its own shaft; assumed 0 when left out"""
     diameter: Annotated[PositiveLength | None, Assumed()] = None
-    """the drive drum's when left out"""
+    """default: that of the drive pulley"""
 
 
 class SlipLimit(Fragment):
@@ -134,7 +134,7 @@ class SlipLimit(Fragment):
     reserve: Annotated[FactorFromOne, Limit()] = 1.2
     """reserve of friction force k_T; 1.1 to 1.5 in practice"""
     definition: Literal["force", "ratio"] = "force"
-    """`force` puts the reserve on the friction force, `ratio` on the ratio of the tensions (stricter)"""
+    """reserve of the friction force (`force`) or of the tension ratio (`ratio`, stricter)"""
 
 
 class ConveyorChecks(CheckSettings):
@@ -143,41 +143,41 @@ class ConveyorChecks(CheckSettings):
     slip: SlipLimit = SlipLimit()
     """traction at the drive pulley"""
     belt_safety_running: Annotated[PositiveRatio | None, Limit()] = None
-    """breaking force over largest tension in steady running"""
+    """breaking force / maximum tension in steady running"""
     belt_safety_starting: Annotated[PositiveRatio | None, Limit()] = None
-    """breaking force over largest tension during a start"""
+    """breaking force / maximum tension during a start"""
     sag: Annotated[PositiveRatio, Limit()] = 0.01
-    """largest sag of the belt over the idler pitch, in steady running"""
+    """maximum sag ratio h/a of the belt, in steady running"""
     slack_sag: Annotated[PositiveRatio, Limit()] = DEEPEST
-    """sag over idler pitch at which the belt counts as slack, in every scene"""
+    """sag ratio at which the belt counts as slack, in every scene"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None
     """maximum stopping distance of the belt in a `stop`"""
     emergency_stop_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """maximum stopping distance of the belt in an `emergency_stop`; `stop_distance` where it is left out"""
+    """maximum stopping distance of the belt in an `emergency_stop`; default: `stop_distance`"""
     stop_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest time of any stop"""
+    """maximum stopping time of any stop"""
     section_fill: Annotated[PositiveRatio, Limit()] = 1.0
-    """largest stream over what the cross-section of the load holds"""
+    """maximum filling ratio (mass flow / capacity of the cross-section)"""
     edge_overload: Annotated[FactorFromOne, Limit()] = 1.15
-    """largest tension per width of a fibre at a transition or in a vertical curve over that of the steadily running
-    belt's safety"""
+    """maximum fibre tension per width at a transition or in a vertical curve, relative to that of the steadily running
+    belt with its safety factor"""
     start_acceleration: Annotated[PositiveAcceleration | None, Limit()] = None
-    """largest acceleration of the belt in a start; 0.1 to 0.3 m/s^2 is usual"""
+    """maximum starting acceleration of the belt; 0.1 to 0.3 m/s^2 is usual"""
     start_margins: Literal["on", "off"] = "off"
     """whether the start acceleration is checked against traction and slack limits; CNV101 and CNV105 are more exact"""
     start_residual: Annotated[PositiveRatio | None, Limit()] = None
-    """largest swing that a start's profile may leave in the lowest mode of the belt, over that of a step"""
+    """maximum residual oscillation of the first belt mode after the start profile, relative to a step"""
     resonance_band: Annotated[Fraction, Limit()] = 0.15
-    """how far the `ripple` of a drive has to stay from the natural frequencies of the belt"""
+    """required separation of the `ripple` of a drive from the natural frequencies of the belt"""
     slip_heat: Annotated[PositiveEnergy | None, Limit()] = None
-    """largest heat a drum may burn off by slip in one scene"""
+    """maximum slip heat of a pulley in one scene"""
 
 
 class ConveyorScene(Scene):
     """Base of the scenes of a conveyor."""
 
     load: Literal["full", "empty", "uphill", "downhill"] = "full"
-    """the carry strand: all loaded, empty, or loaded only on the sections that climb or that fall"""
+    """load of the carrying strand: full, empty, or only on rising or on falling sections"""
 
     def default_name(self) -> str:
         return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
@@ -190,24 +190,24 @@ class Run(ConveyorScene):
 
 
 class Aborted(Fragment):
-    """A start that is broken off before the start proper."""
+    """A start that is aborted before the final start."""
 
     run: PositiveTime
-    """how long the drives pull"""
-    pause: Annotated[Time, Setting("part of the scene: 0 switches the drives on again at once")] = 0.0
-    """how long they are off before they start again"""
+    """driving time of the aborted start"""
+    pause: Annotated[Time, Setting("part of the scene: 0 is an immediate restart")] = 0.0
+    """time between switch-off and restart"""
 
 
 class Start(ConveyorScene, TransientScene):
-    """A start from rest."""
+    """A start from standstill."""
 
     type: Literal["start"] = "start"
     profile: Profile = Profile()
     """how the drive starts; a torque step when left out"""
     belt: Literal["frozen", "relaxed"] = "frozen"
-    """initial state of the belt: with the friction of running frozen in it, or without any after a long rest"""
+    """initial state of the belt: with the tensions of steady running, or relaxed after a long standstill"""
     aborted: Aborted | None = None
-    """a first try that is broken off"""
+    """a start aborted before the final start"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -217,7 +217,7 @@ class Start(ConveyorScene, TransientScene):
         if "aborted" not in given or profile is None or profile.word("shape") in ("step", "curve", None):
             return
         if profile.word("control") != "torque":
-            yield Conflict(("aborted",), "an imposed speed is not broken off", "write `control: torque`")
+            yield Conflict(("aborted",), "an imposed speed is not aborted", "write `control: torque`")
 
 
 class Stopping(ConveyorScene, TransientScene):
@@ -225,7 +225,7 @@ class Stopping(ConveyorScene, TransientScene):
 
 
 class Stop(Stopping):
-    """The drives are switched off at full speed; the belt runs out, or is braked."""
+    """The drives are switched off at full speed; the belt coasts or is braked."""
 
     type: Literal["stop"] = "stop"
     brakes: Literal["on", "off"] = "on"
@@ -233,7 +233,7 @@ class Stop(Stopping):
 
 
 class EmergencyStop(Stopping):
-    """The drives fall out at full speed and all brakes come in."""
+    """The drives are switched off at full speed and all brakes are applied."""
 
     type: Literal["emergency_stop"] = "emergency_stop"
 
@@ -242,24 +242,26 @@ class Coast(Stopping):
     """The drives are switched off and no brake acts; the resistance is computed from a measured distance."""
 
     type: Literal["coast"] = "coast"
-    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value, which no check reads")] = None
-    """distance of a real run-out from rated speed, from which the resistance coefficient is computed"""
+    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value without influence on the checks")] = (
+        None
+    )
+    """measured coasting distance from rated speed, from which the friction factor f is computed"""
 
 
 class Jam(ConveyorScene, TransientScene):
-    """A drum is blocked at full speed."""
+    """A pulley is blocked at full speed."""
 
     type: Literal["jam"] = "jam"
     at: Literal["head", "tail"] = "head"
-    """the drum that jams; the drives at the other end go on"""
-    time: Annotated[Time, Setting("part of the scene: at once is the worst case")] = 0.0
+    """the blocked pulley; the drives at the other end continue"""
+    time: Annotated[Time, Setting("part of the scene: an instantaneous jam is the worst case")] = 0.0
     """in which the pulley comes to rest at a constant rate; 0 for an instantaneous stop"""
-    duration: Annotated[PositiveTime | None, Setting("the window is printed with the loads")] = None
-    """simulated time; twice round the belt for a wave when left out"""
+    duration: Annotated[PositiveTime | None, Setting("the report states the window with the loads")] = None
+    """simulated time; default: two wave circuits of the belt"""
 
 
 class Hold(ConveyorScene):
-    """A loaded belt stands still with its drives off."""
+    """A loaded belt at standstill with its drives off."""
 
     type: Literal["backstop"] = "backstop"
 
@@ -277,39 +279,39 @@ AnyScene = Annotated[
 
 
 class Conveyor(MachineSpec):
-    """A belt conveyor with drive drums at the head, at the tail or at both."""
+    """A belt conveyor with drive pulleys at the head, at the tail or at both."""
 
     kind: Literal["conveyor"]
     route: Route
-    """where the belt runs"""
+    """route of the belt"""
     belt: Belt
     """the belt"""
     idlers: Idlers
     """the idlers"""
     load: Load
-    """what is conveyed"""
+    """conveyed material"""
     transitions: Transitions = Transitions()
-    """where the trough opens before the head drum and behind the tail drum"""
+    """transitions before the head pulley and after the tail pulley"""
     resistance: Resistance = Resistance()
     """resistance to motion"""
     speed: PositiveSpeed
     """belt speed"""
     drive: Drive | None = None
-    """motors, gear and drum at the head; or give `drives`"""
+    """motors, gear and pulley at the head; or give `drives`"""
     drives: Annotated[dict[str, PlacedDrive], Field(min_length=1, max_length=8)] | None = None
     """several drives by name, instead of `drive`"""
     brakes: dict[str, Brake] = Field(default_factory=dict, max_length=50)
     """brakes by name"""
     backstop: Annotated[Backstop | None, Also("holdback")] = None
-    """what keeps it from running back"""
+    """backstop (holdback)"""
     takeup: TakeUp
     """the take-up"""
     tail_drum: Annotated[TailDrum, Also("tail_pulley")] = TailDrum()
-    """the tail drum"""
+    """the tail pulley"""
     checks: ConveyorChecks = ConveyorChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; a loaded run, a loaded start and an empty start when left out"""
+    """load cases; default: a loaded run, a loaded start and an empty start when left out"""
 
     DEFAULT_SCENES: ClassVar[tuple[Run | Start, ...]] = (Run(), Start(), Start(load="empty"))
 
@@ -327,8 +329,8 @@ class Conveyor(MachineSpec):
             and drives
             and all(isinstance(drive, dict) and drive.get("at") == "tail" for drive in drives.values())
         ):
-            reason = "no drive is at the head: take-up and tension are counted from there"
-            yield Conflict(("drives",), reason, "turn the route round, so that the drive is at its head")
+            reason = "no drive is at the head, the reference point of take-up and tension"
+            yield Conflict(("drives",), reason, "reverse the route, so that a drive is at its head")
         yield from _no_motor_there(given)
         yield from _without_density(given)
         route, resistance = given.block("route"), given.block("resistance")
@@ -451,7 +453,9 @@ def _without_density(given: Given) -> Iterator[Conflict]:
     if "surcharge_angle" in load:
         return  # that it is missing is said already
     if any(isinstance(force, dict) and "skirt" in force for force in forces.values()):
-        yield Conflict(("load",), "`skirt` plates feel the bulk density: it is missing", "add `density: 1600 kg/m^3`")
+        yield Conflict(
+            ("load",), "`skirt` plates require the bulk density: it is missing", "add `density: 1600 kg/m^3`"
+        )
 
 
 def _whole_length(route: Given) -> float | None:

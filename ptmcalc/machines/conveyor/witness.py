@@ -49,10 +49,10 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
         m ds v' = dS - w ds sgn v - c ds v - dz,   S' = K/ds dv,   central differences, friction by return map
 
-    **Range** any scene in motion of a belt that stays taut; without sag, damping and what goes along with the belt.
-    **Error** three times what a mesh differs by from one with half as many elements, or half of what that differs by
-    from the one before (two may agree by chance): fronts converge with the first order at least, so that what is still
-    to come is no more than that difference.
+    **Range** any scene in motion of a taut belt; without sag, damping and wave convection.
+    **Error** three times the difference to a mesh with half as many elements, or half of the difference of the two
+    coarser meshes (two may agree by chance): fronts converge at least with the first order, so that the remaining error
+    is at most that difference.
     **Source** lumped elements: Nordell and Ciozda; Moreau's time stepping of friction; derived in `witness.belt`.
     """
     case = moving(spec, scene)
@@ -302,9 +302,9 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """
     case = moving(spec, scene)
     if case.window <= 0:
-        return Criterion("W/F", 1.0, 1.0, "static resistance over the drives' force: the belt stays at rest", "Newton")
+        return Criterion("W/F", 1.0, 1.0, "static resistance / drive force: the belt does not move", "Newton")
     rounds = case.window / case.line.contour_time
-    return Criterion("n", rounds, MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")
+    return Criterion("n", rounds, MOST_ROUNDS, "wave circuits during the scene: too much work", "cost")
 
 
 ELEMENTS: Solver[Conveyor, ConveyorScene] = Solver(

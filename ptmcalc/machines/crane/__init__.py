@@ -29,5 +29,5 @@ def __getattr__(name: str) -> AnyKind:
 def _whole() -> AnyKind:
     places = (place.split(":") for place in TYPES.values())
     types = [getattr(import_module(module), attribute) for module, attribute in places]
-    title = "crane: what slews, what travels, what stacks"
+    title = "cranes: slewing, travelling and stacker cranes"
     return of_types("crane", title, *types, examples=examples_in(__package__))

@@ -22,7 +22,7 @@ def inspect(spec: Drivetrain) -> Iterator[Finding]:
         if gear.reverse_efficiency is not None and gear.reverse_efficiency > gear.efficiency:
             yield Finding(
                 "SPC201",
-                f"`{name}` loses less when it is driven back than forward",
+                f"`{name}` has a higher efficiency in reverse than forward",
                 ("gears", name, "reverse_efficiency"),
                 "check both efficiencies; 2 - 1/efficiency is usual",
             )

@@ -57,7 +57,7 @@ def _wear(name: str, module: float) -> Assumption[Drivetrain]:
         units.LENGTH,
         lambda spec: 0.0,
         lambda spec: Interval(0.0, most),
-        "from a new gear to 15 % of the tooth, the wear at which gears are renewed at the earliest",
+        "from a new gear to 15 % of the tooth, the earliest wear limit of gears",
     )
 
 

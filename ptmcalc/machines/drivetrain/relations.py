@@ -35,16 +35,22 @@ def _stopped(spec: Drivetrain, scene: Stop, loads: Mapping[str, Estimate]) -> Bo
 
 
 RELATIONS: tuple[Relation, ...] = (
-    ordered("speed_max", "speed_min", _ANY, "the largest speed is at least the smallest speed"),
-    ordered("speed_max", "speed_end", _ANY, "the largest speed is at least that at the end"),
-    ordered("speed_end", "speed_min", _ANY, "the speed at the end is at least the smallest speed"),
+    ordered("speed_max", "speed_min", _ANY, "the maximum speed is at least the minimum speed"),
+    ordered("speed_max", "speed_end", _ANY, "the maximum speed is at least the final speed"),
+    ordered("speed_end", "speed_min", _ANY, "the final speed is at least the minimum speed"),
     Relation(
-        ("motor_torque_rms", "motor_torque_peak"), _ANY, _rms, "the largest motor torque is at least the rms torque"
+        ("motor_torque_rms", "motor_torque_peak"), _ANY, _rms, "the maximum motor torque is at least the rms torque"
     ),
     Relation(
-        ("start_time", "start_share"), frozenset({Start}), _started, "a finite start time means that speed is reached"
+        ("start_time", "start_share"),
+        frozenset({Start}),
+        _started,
+        "a finite starting time means that the speed is reached",
     ),
     Relation(
-        ("stop_time", "stop_speed_share"), frozenset({Stop}), _stopped, "a finite stop time means that no speed is left"
+        ("stop_time", "stop_speed_share"),
+        frozenset({Stop}),
+        _stopped,
+        "a finite stopping time means a final speed of zero",
     ),
 )

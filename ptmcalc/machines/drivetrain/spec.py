@@ -26,17 +26,17 @@ class DrivetrainChecks(CheckSettings):
     """Limits of the checks of a drive train."""
 
     start_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest start"""
+    """maximum starting time"""
     stop_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest stop"""
+    """maximum stopping time"""
     stop_angle: Annotated[Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Limit()] = None
     """maximum stopping distance"""
     resonance_margin: Annotated[Fraction, Limit()] = 0.2
-    """least distance of an exciting frequency from a natural one, as a share of the natural one"""
+    """minimum separation of an excitation frequency from a natural frequency, relative to the natural frequency"""
     cycle_time: Annotated[
         PositiveTime | None, Setting("the time of the scene, at most that of a cycle with pauses")
     ] = None
-    """time over which a motor's heating torque is taken; the scene's own time when left out"""
+    """cycle time of the rms motor torque; default: the time of the scene"""
 
 
 class TrainScene(Scene):
@@ -45,13 +45,13 @@ class TrainScene(Scene):
     duration: Annotated[PositiveTime | None, Setting("the start or stop and ten periods of the lowest frequency")] = (
         None
     )
-    """length of the scene; what happens later is no part of it, and `window_factor` does not change it"""
+    """length of the scene; `window_factor` does not change it"""
     of: str | None = None
-    """the inertia the scene is about; the first motor's, or the first one, when left out"""
+    """inertia considered in the scene; default: that of the first motor, or the first inertia"""
     speed: Annotated[AnySpeed | None, Absent("it starts from rest")] = None
-    """speed of that inertia at the start; the others turn with it"""
+    """initial speed of that inertia; the other inertias follow"""
     links: Literal["relaxed", "loaded"] | None = None
-    """whether links start without torque, or with the one the loads put into them; `loaded` in a `stop`"""
+    """whether links start without torque, or loaded; `loaded` in a `stop`"""
 
 
 class Run(TrainScene):
@@ -63,11 +63,11 @@ class Run(TrainScene):
 
 
 class Start(TrainScene, TransientScene):
-    """A start from rest: brakes are off, motors drive."""
+    """A start from standstill: brakes released, motors on."""
 
     type: Literal["start"] = "start"
     until: Annotated[AnySpeed | None, Setting("95 % of the speed of the motor")] = None
-    """the start is over when the inertia the scene is about reaches this speed; 95 % of the motor's when left out"""
+    """target speed of the inertia considered; default: 95 % of the motor speed"""
 
 
 class Stop(TrainScene, TransientScene):
@@ -75,18 +75,18 @@ class Stop(TrainScene, TransientScene):
 
     type: Literal["stop"] = "stop"
     speed: Annotated[AnySpeed | None, Assumed()] = None
-    """speed of that inertia at the start; the others turn with it; that of the motor without load when left out"""
+    """initial speed of that inertia; the other inertias follow; that of the motor without load when left out"""
 
 
 AnyScene = Annotated[Run | Start | Stop, Field(discriminator="type")]
 
 
 class Drivetrain(MachineSpec):
-    """Inertias on a shaft or on a line, tied by gears and elastic links."""
+    """Rotating or travelling inertias, connected by gears and elastic links."""
 
     kind: Literal["drivetrain"]
     inertias: Annotated[dict[str, Body], Field(min_length=1, max_length=40)]
-    """what moves, by name"""
+    """inertias, by name"""
     links: dict[str, Link] = Field(default_factory=dict, max_length=100)
     """elastic links, by name"""
     gears: dict[str, Gear] = Field(default_factory=dict, max_length=40)
@@ -96,7 +96,7 @@ class Drivetrain(MachineSpec):
     motors: dict[str, MotorOn] = Field(default_factory=dict, max_length=40)
     """motors, by name"""
     torques: dict[str, AnyTorque] = Field(default_factory=dict, max_length=100)
-    """torques and forces that are no motors: weights, working loads, excitations"""
+    """torques and forces other than motors: weights, working loads, excitations"""
     resistances: dict[str, Resistance] = Field(default_factory=dict, max_length=100)
     """friction, by name"""
     motions: dict[str, Motion] = Field(default_factory=dict, max_length=40)
@@ -106,7 +106,7 @@ class Drivetrain(MachineSpec):
     checks: DrivetrainChecks = DrivetrainChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens; a start, when left out"""
+    """load cases; default: a start"""
 
     PARTS: ClassVar[tuple[str, ...]] = (
         "links",

@@ -124,7 +124,9 @@ def _names(given: Given, kinds: tuple[str, ...]) -> Iterator[Conflict]:
         raw = given.raw.get(kind)
         for name in raw if isinstance(raw, dict) else ():
             if not isinstance(name, str) or not _NAME.fullmatch(name) or name == GROUND:
-                reason = f"{quote(str(name))} is no name: a letter, then letters, digits, `_` and `-`; not `{GROUND}`"
+                reason = (
+                    f"{quote(str(name))} is not a name: a letter, then letters, digits, `_` and `-`; not `{GROUND}`"
+                )
                 yield Conflict((kind, name), reason, "give it another name")
             elif name in seen:
                 yield Conflict((kind, name), f"`{name}` is also one of the `{seen[name]}`", "give it a name of its own")
@@ -132,7 +134,7 @@ def _names(given: Given, kinds: tuple[str, ...]) -> Iterator[Conflict]:
 
 
 def _unknown(path: KeyPath, name: str, known: list[str]) -> Conflict:
-    return Conflict(path, f"no inertia is called {quote(name)}", did_you_mean(name, known, "inertias: "))
+    return Conflict(path, f"unknown inertia {quote(name)}", did_you_mean(name, known, "inertias: "))
 
 
 def _ends(part: _Part, known: list[str]) -> Iterator[Conflict]:
@@ -163,10 +165,10 @@ def _motion(part: _Part, bodies: Bodies) -> Iterator[Conflict]:
     if part.kind == "gears":
         yield from _gear_motion(part, turning)
     elif len(turning) == 2 and turning[0] is not turning[1]:
-        yield Conflict(kinds[1][0], "one end turns, the other travels", "put a gear with a `radius` between them")
+        yield Conflict(kinds[1][0], "one end rotates, the other travels", "put a gear with a `radius` between them")
     elif part.kind == "motors" and not turning[0]:
-        hint = "put it on one that turns, with a gear of a `radius` between; or write its force under `torques`"
-        yield Conflict(kinds[0][0], "a motor turns, and this inertia travels", hint)
+        hint = "put it on a rotating inertia, with a gear of a `radius` between; or write its force under `torques`"
+        yield Conflict(kinds[0][0], "a motor rotates, and this inertia travels", hint)
     else:
         if "clearance" in part.given and not turning[0]:
             reason = "the clearance of a gear is the backlash of a shaft, and these inertias travel"
@@ -177,10 +179,10 @@ def _motion(part: _Part, bodies: Bodies) -> Iterator[Conflict]:
 def _gear_motion(part: _Part, turns: list[bool]) -> Iterator[Conflict]:
     ways = [key for key in ("radius", "ratio") if key in part.given]
     if ways == ["radius"] and turns != [True, False]:
-        reason = "a `radius` makes travel of rotation: `from` turns and `to` travels"
+        reason = "a `radius` converts rotation into travel: `from` rotates and `to` travels"
         yield Conflict((*part.path, "radius"), reason, "write a `ratio`, or swap `from` and `to`")
     elif ways == ["ratio"] and turns[0] is not turns[1]:
-        reason = "one side turns, the other travels: a ratio without unit does not join them"
+        reason = "one side rotates, the other travels: a ratio without unit cannot connect them"
         yield Conflict((*part.path, "ratio"), reason, "write the `radius` of drum, wheel or pinion")
 
 
@@ -295,14 +297,14 @@ def _speeds(bodies: Bodies, motions: list[_Part], ties: _Ties) -> Iterator[Confl
         root, ratio = ties.root(name)
         other, top = known.setdefault(root, (name, speed / ratio))
         if abs(speed / ratio - top) > _ROUNDED * max(abs(speed / ratio), abs(top)):
-            reason = f"`{other}`, to which gears tie it, turns at another speed"
+            reason = f"`{other}`, connected by gears, has a different speed"
             yield Conflict(("inertias", name, "speed"), reason, "give the speed of one of the two")
     guided: dict[str, str] = {}
     for motion in motions:
         name = motion.ends[0][1]
         root, _ = ties.root(name)
         if root in guided:
-            reason = f"the motion of {quote(name)} is prescribed already, by `{guided[root]}`"
+            reason = f"the motion of {quote(name)} is already prescribed by `{guided[root]}`"
             yield Conflict((*motion.path, "at"), reason, "delete one of the two")
         guided.setdefault(root, str(motion.path[1]))
 
@@ -322,7 +324,9 @@ def _massless(bodies: Bodies, gears: list[_Part]) -> Iterator[Conflict]:
         if name not in heavy:
             reason = "a node without inertia has no motion of its own"
             key = "mass" if "mass" in bodies[name] else "inertia"
-            yield Conflict(("inertias", name, key), reason, "give it an inertia, or join the links on both sides of it")
+            yield Conflict(
+                ("inertias", name, key), reason, "give it an inertia, or combine the links on both sides of it"
+            )
 
 
 def _heavy(body: Given) -> bool:

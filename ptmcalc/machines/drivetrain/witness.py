@@ -22,12 +22,12 @@ decide whether it stops just before the end. A larger value omits more reference
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:
-    """Loads of a scene with all links elastic, by eighth-order steps (DOP853) from event to event.
+    """Loads of a scene with all links elastic, by eighth-order steps (DOP853) between events.
 
         J_i w_i' = sum of torques,   link torque by its law of contact,   friction set-valued
 
     **Range** as the elastic train; impacts of one rigid contact at a time.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first.
     **Source** Dormand and Prince; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     case = case_of(spec, scene, "backlash" in carried)

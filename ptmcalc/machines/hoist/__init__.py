@@ -36,7 +36,8 @@ def inspect(spec: Hoist) -> Iterator[Finding]:
             said = units.show(drum_speed(spec), units.ANGULAR_SPEED)
             yield Finding(
                 "SPC201",
-                f"motor and gearbox turn the drum at {units.show(drum, units.ANGULAR_SPEED)}, the file states {said}",
+                f"motor and gearbox result in a drum speed of {units.show(drum, units.ANGULAR_SPEED)},"
+                f" the file states {said}",
                 ("speed",),
                 "correct the speed, the ratio or the reeving",
             )
@@ -44,7 +45,7 @@ def inspect(spec: Hoist) -> Iterator[Finding]:
         rated, mean = (units.show(torque, units.TORQUE) for torque in (motor.rated, motor.mean_torque))
         yield Finding(
             "SPC201",
-            f"the motor starts with {mean} in the mean, below its rated torque of {rated}",
+            f"the mean starting torque of {mean} is below the rated torque of {rated}",
             ("motor",),
             "correct its power, speed or starting torque: hoisting motors start with 1.5 to 2.5 times the rated torque",
         )
@@ -53,7 +54,7 @@ def inspect(spec: Hoist) -> Iterator[Finding]:
             "SPC201",
             f"{units.show(spec.rope.modulus, units.STRESS)} is the modulus of wire, not of a rope",
             ("rope", "modulus"),
-            "write that of the rope on its metallic area, 90 to 130 GPa",
+            "write the rope modulus on the metallic area, 90 to 130 GPa",
         )
     if spec.classes.drive in CREEPING and spec.speed.creep is None:
         yield Finding(
@@ -76,8 +77,8 @@ def _editions_that_differ(spec: Hoist) -> Iterator[Finding]:
     if factor is not None and said:
         yield Finding(
             "SPC201",
-            f"editions of the standard differ in phi_2 of {spec.classes.drive}: `{spec.classes.edition}` gives"
-            f" {factor:.3g}, {' and '.join(said)}",
+            f"the editions of the standard have different phi_2 for {spec.classes.drive}:"
+            f" `{spec.classes.edition}` gives {factor:.3g}, {' and '.join(said)}",
             ("class",),
             f"write `edition: {spec.classes.edition}`, or that of the edition that applies, under `class`",
         )

@@ -58,35 +58,35 @@ _OF_THE_TACKLE: tuple[Assumption[Hoist], ...] = (
         units.RATIO,
         lambda spec: 0.98,
         lambda spec: Interval(0.97, 0.985),
-        "sheaves on rolling bearings: 0.98 to 0.985; 0.95 to 0.97 on plain ones",
+        "sheaves on rolling bearings 0.98 to 0.985, on plain bearings 0.95 to 0.97",
     ),
     Assumption(
         ("reeving", "deflection_efficiency"),
         units.RATIO,
         _deflected,
         lambda spec: Interval(min(0.97, _deflected(spec) or 1.0), max(0.985, _deflected(spec) or 0.0)),
-        "as the sheaves of the tackle; on rolling bearings 0.97 to 0.985",
+        "equal to the sheaves of the reeving; on rolling bearings 0.97 to 0.985",
     ),
     Assumption(
         ("drum", "inertia"),
         units.INERTIA,
         lambda spec: 0.0 if spec.gearbox is not None and spec.motor is not None else None,
         _drum_inertia,
-        "left out; seldom above 5 % of the rotors' inertia on the drum shaft",
+        "neglected; seldom above 5 % of the rotor inertia at the drum shaft",
     ),
     Assumption(
         ("rope", "fill_factor"),
         units.RATIO,
         lambda spec: 0.5 if spec.rope.area is None else None,
         lambda spec: Interval(0.4, 0.6),
-        "0.4 with a fibre core to 0.6 with a steel core and more compacted; the maker's list has the area",
+        "0.4 with a fibre core to 0.6 with a steel core, more for compacted ropes; see the manufacturer's catalogue",
     ),
     Assumption(
         ("rope", "modulus"),
         units.STRESS,
         lambda spec: 1.05e11,
         lambda spec: Interval(0.9e11, 1.3e11),
-        "wire ropes on their metallic area: 90 GPa new to 130 GPa run in, half of the wire's; measure it",
+        "wire ropes on their metallic area: 90 GPa new to 130 GPa run in, half of the wire modulus; measure it",
     ),
     Assumption(
         ("rope", "mass"),
@@ -122,7 +122,7 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             units.RATIO,
             _reversed,
             _either_way,
-            "losses as forward, 2 - 1/eta, or the forward efficiency",
+            "2 - 1/eta (equal losses in both directions), or the forward efficiency",
         )
     if spec.duty is not None and DUTY_TYPES[spec.duty.type].at_rest:
         yield Assumption(
@@ -139,7 +139,7 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             units.INERTIA,
             lambda spec: 0.15 * rotor,
             lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
-            "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+            "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
         )
     if any(scene.type == "winding" for scene in spec.all_scenes):
         yield Assumption(
@@ -147,5 +147,5 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             units.ANGLE,
             lambda spec: math.radians(60),
             lambda spec: Interval(math.radians(45), math.radians(75)),
-            "crossovers of drums grooved parallel reach over 60 to 70 deg; measure them",
+            "crossovers of drums with parallel grooves extend over 60 to 70 deg; measure them",
         )

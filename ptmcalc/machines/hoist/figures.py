@@ -7,7 +7,7 @@ _MOMENTS = (
     ("tension_time", "the rope is taut"),
     ("lift_off_time", "the load leaves the ground"),
     ("start_time", "full speed"),
-    ("stop_time", "the drum stands"),
+    ("stop_time", "drum at standstill"),
 )
 
 FIGURES = (
@@ -29,7 +29,7 @@ FIGURES = (
     ),
     Figure(
         "winding",
-        "Stress that the rope adds as it climbs to the next layer",
+        "Rope stress added by the layer change",
         ("winding",),
         (Course("winding_stress_max"), Course("winding_stress_paper")),
         "additional stress",

@@ -45,12 +45,18 @@ def _safety(spec: Hoist, scene: HoistScene, loads: Mapping[str, float]) -> float
     return strength / pull if strength is not None and pull > 0 else math.inf
 
 
-_MAX = "the factor is the largest rope force relative to the weight"
+_MAX = "the factor is the maximum rope force divided by the weight"
 RELATIONS: tuple[Relation, ...] = (
-    ordered("rope_force_max", "rope_force_min", _HANGING, "the largest rope force is at least the smallest"),
-    ordered("bridge_force_max", "bridge_force_min", _HANGING, "the largest force is at least the smallest"),
-    ordered("hook_speed_max", "hook_speed", _RUN, "the hook is fastest with the rope on the last layer"),
-    _rounded("rope_safety", "rope_pull_max", _safety, _RUN, "rope safety is breaking force over largest rope pull"),
+    ordered("rope_force_max", "rope_force_min", _HANGING, "the maximum rope force is at least the minimum"),
+    ordered("bridge_force_max", "bridge_force_min", _HANGING, "the maximum force is at least the minimum"),
+    ordered("hook_speed_max", "hook_speed", _RUN, "the hook speed is highest on the last layer"),
+    _rounded(
+        "rope_safety",
+        "rope_pull_max",
+        _safety,
+        _RUN,
+        "the rope safety factor is the breaking force divided by the maximum rope pull",
+    ),
     _rounded("lift_off_factor", "rope_force_max", _over_weight("rope_force_max"), frozenset((Lift,)), _MAX),
     _rounded("start_factor", "rope_force_max", _over_weight("rope_force_max"), frozenset((Start,)), _MAX),
     _rounded(
@@ -65,13 +71,13 @@ RELATIONS: tuple[Relation, ...] = (
         "rope_force_min",
         _over_weight("rope_force_min"),
         _HANGING,
-        "the share is the smallest rope force relative to the weight",
+        "the ratio is the minimum rope force divided by the weight",
     ),
     _rounded(
         "bridge_factor",
         "bridge_force_max",
         _over_weight("bridge_force_max"),
         _MOVING,
-        "the factor is the largest force on the structure relative to the weight",
+        "the factor is the maximum force on the structure divided by the weight",
     ),
 )

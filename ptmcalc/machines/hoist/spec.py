@@ -40,14 +40,14 @@ from ptmcalc.spec.scene import Scene, TransientScene
 
 
 class Speeds(Fragment):
-    """How fast the hoist runs."""
+    """Speeds of the hoist."""
 
     main: Annotated[PositiveSpeed | None, OneOf("drum")] = None
     """of the hook with the rope on the first layer, or give `drum`"""
     drum: Annotated[PositiveAngularSpeed | None, OneOf("main")] = None
     """of the drum"""
     creep: Annotated[PositiveSpeed | None, Absent("the hoist has one speed")] = None
-    """slow speed of the hook, on the first layer"""
+    """creep speed of the hook, on the first layer"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -62,47 +62,47 @@ class HoistChecks(CheckSettings):
     """Limits of the checks of a hoist; None stands for the limit of its class."""
 
     rope_safety: Annotated[PositiveRatio | None, Limit()] = None
-    """breaking force over the largest static pull (Zp); by the group of the mechanism when left out"""
+    """breaking force / maximum static rope force (Zp); default: by the mechanism group"""
     drum_ratio: Annotated[PositiveRatio | None, Limit()] = None
-    """drum diameter over rope diameter (h1), to the middle of the rope; by the group when left out"""
+    """drum ratio (D + d)/d (h1), to the rope centre; default: by the group"""
     sheave_ratio: Annotated[PositiveRatio | None, Limit()] = None
-    """sheave diameter over rope diameter (h2), to the middle of the rope; by the group when left out"""
+    """sheave ratio (D + d)/d (h2), to the rope centre; default: by the group"""
     equaliser_ratio: Annotated[PositiveRatio | None, Limit()] = None
-    """equalising sheave diameter over rope diameter (h3); by the group when left out"""
+    """equalising sheave ratio (D + d)/d (h3); default: by the group"""
     drum_slenderness: Annotated[PositiveRatio, Limit()] = 5.0
-    """largest length of the wound parts over the diameter of the drum"""
+    """maximum wound length / drum diameter"""
     layers: Annotated[Annotated[int, Field(ge=1, strict=True)] | None, Limit()] = None
-    """most layers of rope; those of the drum, in the groups M7 and M8 one, when left out"""
+    """maximum number of rope layers; default: those of the drum, one in the groups M7 and M8"""
     dead_wraps: Annotated[PositiveRatio, Limit()] = 2.0
-    """fewest turns that stay on the drum"""
+    """minimum number of dead wraps"""
     flange_margin: Annotated[PositiveRatio, Limit()] = 1.5
-    """least height of the flanges over the last layer, in rope diameters"""
+    """minimum flange height above the top layer, in rope diameters"""
     fleet_angle: Annotated[PositiveAngle | None, Limit()] = None
-    """largest angle of the rope at the drum; 4 deg, or 2 deg for a rotation-resistant rope, when left out"""
+    """maximum fleet angle at the drum; default: 4 deg, or 2 deg for a rotation-resistant rope"""
     layer_factor: Annotated[PositiveRatio | None, Limit()] = None
-    """hoop stress of all layers over that of the first; 1 for one layer and 1.75 for two when left out"""
+    """hoop stress of all layers / hoop stress of the first layer; default: 1 for one layer, 1.75 for two"""
     hoop_stress: Annotated[PositiveStress | None, Limit()] = None
-    """largest hoop stress of the drum shell; needed to check it"""
+    """permissible hoop stress of the drum shell; needed to check it"""
     motor_reserve: Annotated[PositiveRatio, Limit()] = 1.4
-    """least mean starting torque over the static torque of hoisting"""
+    """minimum mean starting torque / static hoisting torque"""
     motor_excess: Annotated[PositiveRatio, Limit()] = 4.0
-    """largest mean starting torque over the static torque of hoisting"""
+    """maximum mean starting torque / static hoisting torque"""
     lift_off_factor: Annotated[PositiveRatio | None, Limit()] = None
-    """largest rope force over the weight as the load is lifted off; phi2 of the hoisting class when left out"""
+    """maximum rope force / weight at lift-off; default: phi2 of the hoisting class"""
     lowering_factor: Annotated[PositiveRatio | None, Limit()] = None
-    """largest rope force over the weight in a stop or a start; needed to check it"""
+    """maximum rope force / weight in a stop or a start; needed to check it"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None
     """maximum stopping distance of a lowered load; only a stop is required when left out"""
     rope_share: Annotated[Fraction, Limit()] = 0.05
-    """least rope force over the weight while it hangs: what keeps the rope in its grooves"""
+    """minimum rope force / weight of a suspended load, to keep the rope in its grooves"""
     gear_impact: Annotated[PositiveRatio, Limit()] = 3.0
-    """largest torque of the gear over that of the even motion"""
+    """maximum gear torque / gear torque of steady motion"""
     brake_reserve: Annotated[PositiveRatio | None, Limit()] = None
-    """least brake torque over that of the lowering load; by the group when left out"""
+    """minimum brake torque / torque of the lowered load; default: by the group"""
     winding_stress_ratio: Annotated[PositiveRatio, Limit()] = 0.1
-    """largest dynamic over mean stress of a rope that climbs to the next layer"""
+    """maximum dynamic / mean rope stress of a layer change"""
     crossover_detuning: Annotated[PositiveRatio, Limit()] = 0.2
-    """least distance of the crossovers of a layer from resonance with the load, as a share of its frequency"""
+    """minimum separation of the crossover frequency from resonance with the load, relative to its frequency"""
 
 
 class HoistScene(Scene):
@@ -110,7 +110,7 @@ class HoistScene(Scene):
 
     load: Literal["full", "empty"] = "full"
     """the rated load on the hook, or the hook block alone"""
-    hook_height: Annotated[Span | None, Setting("the lowest position, where loads are lifted off and set down")] = None
+    hook_height: Annotated[Span | None, Setting("the lowest position, at which loads are lifted and set down")] = None
     """of the hook above its lowest position; at the lowest when left out"""
 
     def default_name(self) -> str:
@@ -119,19 +119,19 @@ class HoistScene(Scene):
 
 
 class Run(HoistScene):
-    """Hoisting and lowering at an even speed."""
+    """Hoisting and lowering at constant speed."""
 
     type: Literal["run"] = "run"
 
 
 class Lift(HoistScene, TransientScene):
-    """A load is lifted off the ground."""
+    """Lift-off of a grounded load."""
 
     type: Literal["lift"] = "lift"
     rope: Literal["slack", "taut"] = "slack"
-    """whether the drive must take up slack rope first, or the rope is taut without force"""
-    slack: Annotated[PositiveLength | None, Setting("as much as brings the drive to its speed: the worst case")] = None
-    """travel of the hook before the rope is taut; enough for the drive to come to its speed when left out"""
+    """initial state: slack rope, or taut rope without force"""
+    slack: Annotated[PositiveLength | None, Setting("slack sufficient for full drive speed: the worst case")] = None
+    """slack travel of the hook; default: sufficient for full drive speed"""
     speed: Literal["main", "creep"] = "main"
     """of the hoist"""
     profile: Profile = Profile()
@@ -139,7 +139,7 @@ class Lift(HoistScene, TransientScene):
 
 
 class Start(HoistScene, TransientScene):
-    """A hanging load is set in motion."""
+    """A start of a suspended load."""
 
     type: Literal["start"] = "start"
     direction: Literal["up", "down"] = "up"
@@ -149,7 +149,7 @@ class Start(HoistScene, TransientScene):
 
 
 class Stop(HoistScene, TransientScene):
-    """A load in motion is stopped by the brake."""
+    """A stop of a moving load by the brake."""
 
     type: Literal["stop"] = "stop"
     direction: Literal["up", "down"] = "up"
@@ -159,7 +159,7 @@ class Stop(HoistScene, TransientScene):
 
 
 class LowerBrake(HoistScene, TransientScene):
-    """A load that is lowered is braked to a halt."""
+    """A lowered load is braked to standstill."""
 
     type: Literal["lower_brake"] = "lower_brake"
     speed: Literal["main", "creep"] = "main"
@@ -167,21 +167,23 @@ class LowerBrake(HoistScene, TransientScene):
 
 
 class Release(HoistScene, TransientScene):
-    """A part of the hanging load comes off at once: a grab, a magnet, a cut sling."""
+    """Sudden release of a part of the suspended load: grab, magnet, cut sling."""
 
     type: Literal["release"] = "release"
-    share: Annotated[Fraction, Setting("all of the load: the worst case")] = 1.0
-    """part of the rated load that comes off"""
+    share: Annotated[Fraction, Setting("the full load: the worst case")] = 1.0
+    """released part of the rated load"""
     manner: Literal["quick", "slow"] = "quick"
-    """how it comes off: by a magnet, or by a grab"""
+    """type of release: by a magnet, or by a grab"""
 
 
 class WindUp(HoistScene, TransientScene):
-    """The rope climbs from a layer to the next one while the drum turns at constant speed."""
+    """A layer change of the rope at constant drum speed."""
 
     type: Literal["winding"] = "winding"
-    layer: Annotated[int, Field(ge=2, le=20, strict=True), Setting("the first climb, which is the steepest")] = 2
-    """the layer it climbs to"""
+    layer: Annotated[
+        int, Field(ge=2, le=20, strict=True), Setting("the first layer change, the largest relative step")
+    ] = 2
+    """the layer after the change"""
 
 
 AnyScene = Annotated[Run | Lift | Start | Stop | LowerBrake | Release | WindUp, Field(discriminator="type")]
@@ -192,13 +194,13 @@ CREEPING = ("HD2", "HD3")
 
 
 class Hoist(MachineSpec):
-    """A rope hoist: a load on a hook block, a tackle, a drum, a gearbox, a motor and a brake."""
+    """A rope hoist: hook block, reeving, drum, gearbox, motor and brake."""
 
     kind: Literal["hoist"]
     load: PositiveMass
     """rated load on the hook"""
-    hook_block: Annotated[Mass, Absent("the rated load includes it, or it is written")] = 0.0
-    """hook block and whatever stays on the hook"""
+    hook_block: Annotated[Mass, Absent("included in the rated load, or stated here")] = 0.0
+    """hook block and permanent load handling devices"""
     height: PositiveSpan
     """lifting height"""
     least_fall: Annotated[float, Measure(units.SPAN, at_least=0), Absent("the shortest rope is the stiffest")] = 0.0
@@ -206,7 +208,7 @@ class Hoist(MachineSpec):
     speed: Speeds
     """of hook or drum"""
     reeving: Reeving
-    """how the rope runs"""
+    """reeving"""
     rope: Rope
     """the wire rope"""
     drum: Drum
@@ -222,16 +224,16 @@ class Hoist(MachineSpec):
     limiter: Limiter | None = None
     """the rated capacity limiter"""
     structure: Structure | None = None
-    """what the hoist stands on; rigid when left out"""
+    """supporting structure; rigid when left out"""
     classes: Classes = Field(default=Classes(), alias="class")
-    """what the hoist is classed as"""
+    """classification of the hoist"""
     duty: Duty | None = None
-    """what the hoist does all day; needed to check the motor's heating and starts"""
+    """duty; needed to check the motor heating and starts"""
     checks: HoistChecks = HoistChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; a loaded run when left out, with a whole drive also a lift-off and a lowered load
-    that is braked"""
+    """load cases; default: a loaded run, with a complete drive also a lift-off and a stop of a lowered
+    load"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -287,12 +289,12 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             yield Conflict(("scenes", index, what, "speed"), "the hoist has no creep speed", hint)
         hook = scene.number("hook_height")
         if hook is not None and height is not None and hook > height:
-            reason = f"the hook is lifted by {units.show(height, units.SPAN)} only"
+            reason = f"the lifting height is only {units.show(height, units.SPAN)}"
             yield Conflict(("scenes", index, what, "hook_height"), reason, "write less, or correct the `height`")
         if what == "winding" and drum is not None:
             layers, wanted = drum.raw.get("layers", 1), scene.raw.get("layer", 2)
             if isinstance(layers, int) and isinstance(wanted, int) and wanted > layers:
-                reason = f"the rope never climbs to layer {wanted}: the drum has {layers}"
+                reason = f"the rope never reaches layer {wanted}: the drum has {layers}"
                 yield Conflict(("scenes", index), reason, f"write `layers: {wanted}` under `drum`")
         yield from _nothing_that_hangs(given, index, scene, what)
         profile = scene.raw.get("profile")
@@ -304,13 +306,13 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
 def _nothing_that_hangs(given: Given, index: int, scene: Given, what: str) -> Iterator[Conflict]:
     """What moves on its rope has a mass, and rope to hang on."""
     if what != "run" and scene.word("load") == "empty" and not given.number("hook_block"):
-        reason = "an empty hook without a mass does not move on its rope"
+        reason = "an empty hook without a mass cannot be simulated"
         yield Conflict(("scenes", index, what, "load"), reason, "add `hook_block: 90 kg`, or write `load: full`")
     reeving = given.block("reeving")
     hook, height = scene.number("hook_height"), given.number("height")
     spare = (given.number("least_fall") or 0.0) + ((reeving.number("lead_length") or 0.0) if reeving else 0.0)
     if hook is not None and hook == height and spare <= 0:
-        reason = "no rope is free with the hook so high"
+        reason = "the free rope length is zero at this hook height"
         yield Conflict(("scenes", index, what, "hook_height"), reason, "write less, or add `least_fall: 1 m`")
 
 

@@ -52,12 +52,12 @@ Readings = dict[str, float]
 
 
 def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """Loads of a scene by eighth-order steps (DOP853) from event to event.
+    """Loads of a scene by eighth-order steps (DOP853) between events.
 
         J_1 w_1' = M_m - M_g/(u eta),   J_d w_d' = M_g - F R/eta_r,   M y'' = F - Q + N,   m_b z'' = F - K_b z - b_b z'
 
     **Range** a massless rope of constant length; the structure one mode.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first.
     **Source** Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     case = case_of(spec, scene, carried)
@@ -66,13 +66,13 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
 
 
 def run_chain(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """The same with the rope in sections, half of the mass of each at either end.
+    """The same with a rope of sections, half of the mass of each section at either end.
 
         (m_r/n) x_i'' = F_i - F_(i+1),   F_i = n K (x_(i-1) - x_i) + damping
 
-    **Range** a rope that stays taut below its first section; its inertia, not its weight, as with the rope as a rod.
-    **Error** a chain of n sections has waves slower by (k/n)^2/24 of their number k; three times what it differs by
-    from one with half as many, of which the rest of a quadratic series is a third.
+    **Range** a rope that stays taut below its first section; rope inertia without rope weight, as in `rope_waves`.
+    **Error** with n sections the waves of number k are slower by (k/n)^2/24; the error is three times the difference to
+    half as many sections, of which the remainder of a quadratic series is a third.
     **Source** lumped masses: Timoshenko, Vibration Problems in Engineering.
     """
     case, mass = case_of(spec, scene, carried), rope_mass(spec, scene)

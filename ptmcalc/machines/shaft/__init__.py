@@ -32,7 +32,7 @@ def inspect(spec: Shaft) -> Iterator[Finding]:
     if spec.speed is not None and free is not None and not 0.85 <= spec.speed * ratio / free <= 1 + _SPEED_TOLERANCE:
         yield Finding(
             "SPC201",
-            f"motor and gear give {units.show(free / ratio, units.ANGULAR_SPEED)} without load, the file"
+            f"motor and gear result in {units.show(free / ratio, units.ANGULAR_SPEED)} without load, the file"
             f" states {units.show(spec.speed, units.ANGULAR_SPEED)}",
             ("speed",),
             "correct the speed, the ratio or the motor",
@@ -41,8 +41,8 @@ def inspect(spec: Shaft) -> Iterator[Finding]:
         if isinstance(scene, RunUp) and scene.to is not None and free is not None and scene.to * ratio >= free:
             yield Finding(
                 "SPC201",
-                f"the run-up is to end at {units.show(scene.to, units.ANGULAR_SPEED)}, where the motor gives no torque"
-                f" any more ({units.show(free / ratio, units.ANGULAR_SPEED)})",
+                f"the run-up is to end at {units.show(scene.to, units.ANGULAR_SPEED)}, where the motor torque is zero"
+                f" ({units.show(free / ratio, units.ANGULAR_SPEED)})",
                 ("scenes", index, "to"),
                 "write a lower speed",
             )
@@ -58,10 +58,10 @@ def _brake_that_does_not_hold(spec: Shaft) -> Iterator[Finding]:
     if turning > spec.brake.torque + spec.losses.torque:
         yield Finding(
             "SPC201",
-            f"weights and springs turn the shaft with up to {units.show(turning, units.TORQUE)}, more than brake and"
-            " friction hold",
+            f"weights and springs drive the shaft with up to {units.show(turning, units.TORQUE)}, above the holding"
+            " torque of brake and friction",
             ("brake", "torque"),
-            "a stronger brake, or a better balance",
+            "increase the brake torque, or improve the balancing",
         )
 
 
@@ -87,7 +87,7 @@ TOPICS = (INERTIA, CYCLE, SPEED_CHANGES)
 
 KIND = MachineKind(
     name="shaft",
-    title="main shaft with its tachogram: run-up, steady cycle, flywheel, run-out",
+    title="main shaft of a cyclic machine: run-up, steady cycle, flywheel, stop",
     spec=Shaft,
     figures=FIGURES,
     starting=template_in(__package__),

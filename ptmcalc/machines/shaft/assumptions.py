@@ -83,6 +83,6 @@ ASSUMPTIONS: tuple[Assumption[Shaft], ...] = (
         units.INERTIA,
         lambda spec: _bar_inertia(spec, 1 / 12) if _rod(spec) else None,
         lambda spec: Interval(_bar_inertia(spec, 0.06), _bar_inertia(spec, 0.16)),
-        "a uniform bar, m l^2/12; the masses of a rod lie between 0.06 and 0.16 m l^2",
+        "a uniform bar, m l^2/12; connecting rods: 0.06 to 0.16 m l^2",
     ),
 )

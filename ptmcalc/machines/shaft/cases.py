@@ -86,4 +86,4 @@ def inertia_forced_off(spec: Shaft, scene: ShaftScene) -> Criterion:
     **Source** `effects` of the file.
     """
     value = 0.0 if spec.effects.get("varying_inertia") == "off" else 1.0
-    return Criterion("o", value, 0.5, "0 where the file forces the changing inertia off, else 1", "the design file")
+    return Criterion("o", value, 0.5, "0 if the file forces the varying inertia off, otherwise 1", "the design file")

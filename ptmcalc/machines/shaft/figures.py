@@ -12,7 +12,7 @@ FIGURES = (
             Course("run_out_time", ("speed_run_out",), "speed of the main shaft"),
         ),
         "speed",
-        moments=(("run_up_time", "run-up is over"), ("run_out_time", "the shaft stands")),
+        moments=(("run_up_time", "end of run-up"), ("run_out_time", "shaft at standstill")),
     ),
     Figure(
         "way_of_the_shaft",

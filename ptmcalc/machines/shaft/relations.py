@@ -39,12 +39,14 @@ def _recovered(spec: Shaft, scene: RunOut, loads: Mapping[str, Estimate]) -> Bou
 
 
 RELATIONS: tuple[Relation, ...] = (
-    ordered("speed_max", "speed_mean", _CYCLE, "the largest speed is at least the mean speed"),
-    ordered("speed_mean", "speed_min", _CYCLE, "the mean speed is at least the smallest speed"),
-    ordered("torque_motor_max", "torque_motor_rms", _CYCLE, "the largest torque is at least the rms torque"),
-    Relation(("cycle_efficiency", "loss_factor"), _CYCLE, _shares, "efficiency and loss factor of a cycle add up to 1"),
+    ordered("speed_max", "speed_mean", _CYCLE, "the maximum speed is at least the mean speed"),
+    ordered("speed_mean", "speed_min", _CYCLE, "the mean speed is at least the minimum speed"),
+    ordered("torque_motor_max", "torque_motor_rms", _CYCLE, "the maximum torque is at least the rms torque"),
     Relation(
-        ("speed_mean", "speed_max", "speed_min"), _CYCLE, _mean, "the mean speed is that of the two extreme speeds"
+        ("cycle_efficiency", "loss_factor"), _CYCLE, _shares, "efficiency and loss factor of a cycle have the sum 1"
+    ),
+    Relation(
+        ("speed_mean", "speed_max", "speed_min"), _CYCLE, _mean, "the mean speed is the mean of the two extreme speeds"
     ),
     Relation(
         ("energy_recoverable", "kinetic_energy"),

@@ -34,7 +34,7 @@ def result_of(
     if books is not None:
         health["energy_residual"] = books.residual
         if not books.trusted:
-            message = f"the balance of works leaves {books.residual:.2g} of the work turned over"
+            message = f"the balance of works leaves {books.residual:.2g} of the converted work"
             findings = (Finding("NUM101", message),)
             loads = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in loads.items()}
     covered = (0.0, window) if window is not None else None

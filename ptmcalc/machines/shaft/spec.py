@@ -65,7 +65,7 @@ class ConstantInertia(Fragment):
 
     type: Literal["constant"]
     value: PositiveInertia
-    """everything that turns with the main shaft, reduced to it"""
+    """all parts that rotate with the main shaft, reduced to it"""
 
 
 class Harmonic(Fragment):
@@ -73,14 +73,14 @@ class Harmonic(Fragment):
 
     order: Order
     """times per turn"""
-    cosine: Annotated[SignedInertia, Absent("the term has no such part")] = 0.0
+    cosine: Annotated[SignedInertia, Absent("the term has no such component")] = 0.0
     """factor of cos(order * angle)"""
-    sine: Annotated[SignedInertia, Absent("the term has no such part")] = 0.0
+    sine: Annotated[SignedInertia, Absent("the term has no such component")] = 0.0
     """factor of sin(order * angle)"""
 
 
 class HarmonicInertia(Fragment):
-    """An inertia over the angle as a mean value and some harmonics."""
+    """An inertia over the angle as a mean value with harmonics."""
 
     type: Literal["harmonics"]
     mean: PositiveInertia
@@ -105,8 +105,8 @@ class HarmonicInertia(Fragment):
             return
         lowest = _lowest_sum(mean, known)
         if lowest <= 0:
-            reason = f"the inertia falls to {units.show(lowest, units.INERTIA)} at some angle"
-            yield Conflict(("terms",), reason, "an inertia is above 0 at every angle: check mean and terms")
+            reason = f"the inertia decreases to {units.show(lowest, units.INERTIA)} at one angle"
+            yield Conflict(("terms",), reason, "an inertia must be above 0 at every angle: check mean and terms")
 
 
 def _lowest_sum(mean: float, terms: Sequence[tuple[int, float, float]]) -> float:
@@ -124,15 +124,15 @@ class InertiaPoint(Fragment):
     angle: Angle
     """of the main shaft"""
     inertia: PositiveInertia
-    """of everything, reduced to the main shaft at this angle"""
+    """total inertia, reduced to the main shaft at this angle"""
 
 
 class TableInertia(Fragment):
-    """An inertia over the angle through points, by one closed cubic spline that gives its slope as well."""
+    """An inertia over the angle by a closed cubic spline through points."""
 
     type: Literal["table"]
     points: Annotated[tuple[InertiaPoint, ...], Field(min_length=3, max_length=500)]
-    """points within one cycle, the angles rising"""
+    """points within one cycle, in ascending angle"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -141,40 +141,40 @@ class TableInertia(Fragment):
 
 
 class SliderCrank(Fragment):
-    """A crank with rod and slider; the angle 0 is where the slider is farthest from the crank's axis (no offset)."""
+    """A crank with rod and slider; angle 0 is the slider position farthest from the crank axis (no offset)."""
 
     type: Literal["slider_crank"]
     crank_radius: PositiveLength
     """of the crank or eccentric"""
     rod_length: PositiveLength
     """between its two eyes"""
-    offset: Annotated[Offset, Absent("the line of the slider crosses the axis of the crank")] = 0.0
-    """distance of the slider's line from the crank's axis"""
+    offset: Annotated[Offset, Absent("the slider axis intersects the crank axis")] = 0.0
+    """distance of the slider axis from the crank axis"""
     crank_inertia: PositiveInertia
-    """everything that turns with the main shaft"""
+    """all parts that rotate with the main shaft"""
     slider_mass: PositiveMass
     """slider with tool"""
     rod_mass: Annotated[
         Mass,
-        Absent("the masses of the rod are part of `crank_inertia` and `slider_mass`, as in a substitute of two masses"),
+        Absent("the rod mass is included in `crank_inertia` and `slider_mass` (two-mass substitution)"),
     ] = 0.0
     """of the connecting rod"""
     rod_centre: Annotated[Fraction | None, Assumed()] = None
-    """distance of the rod's centre of mass from the crank pin over its length; 0.3 is assumed when it is left out"""
+    """distance of the rod centre of mass from the crank pin / rod length; 0.3 is assumed when it is left out"""
     rod_inertia: Annotated[Inertia | None, Assumed()] = None
     """of the rod about its centre of mass; that of a uniform bar is assumed when it is left out"""
     inclination: Annotated[Angle | None, Absent("slider and rod are balanced; their weights do no work in a cycle")] = (
         None
     )
     """of the slide below the horizontal, from the crank to the slider: 90 deg for a press with the slide below;
-    without it the weights of slider and rod are left out, as if they were balanced"""
+    without it the weights of slider and rod are neglected (balanced)"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """The crank can turn round."""
         radius, rod, offset = (given.number(key) for key in ("crank_radius", "rod_length", "offset"))
         if radius is not None and rod is not None and offset is not None and rod <= radius + abs(offset):
-            reason = "the crank cannot turn round: the rod is not longer than crank and offset together"
+            reason = "the crank cannot rotate fully: the rod is not longer than crank radius plus offset"
             yield Conflict(("rod_length",), reason, "check the three lengths")
 
 
@@ -192,9 +192,9 @@ class Sector(Fragment):
     start: Angle = Field(alias="from")
     """angle at which it begins"""
     to: Angle
-    """angle at which it ends; it may lie past the end of the cycle"""
+    """angle at which it ends; it may be after the end of the cycle"""
     torque: SignedTorque
-    """useful torque on the main shaft; negative where the load drives"""
+    """useful torque on the main shaft; negative if the load drives"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -202,7 +202,7 @@ class Sector(Fragment):
         start, to = given.number("from"), given.number("to")
         if start is not None and to is not None and to <= start:
             hint = f"write e.g. `to: {units.show(to + FULL_TURN, units.ANGLE)}` for a sector past the end of the cycle"
-            yield Conflict(("to",), "the sector ends where it begins or before", hint)
+            yield Conflict(("to",), "the sector ends at or before its start", hint)
 
 
 class SectorLoad(Fragment):
@@ -223,11 +223,11 @@ class TorquePoint(Fragment):
 
 
 class TableLoad(Fragment):
-    """Useful torque over the angle, straight between points and from the last to the first of the next cycle."""
+    """Useful torque over the angle, linear between points and from the last point to the first of the next cycle."""
 
     type: Literal["table"]
     points: Annotated[tuple[TorquePoint, ...], Field(min_length=2, max_length=500)]
-    """points within one cycle, the angles rising"""
+    """points within one cycle, in ascending angle"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -249,11 +249,11 @@ class ToolLoad(Fragment):
 
     type: Literal["tool_force"]
     points: Annotated[tuple[ForcePoint, ...], Field(min_length=2, max_length=200)]
-    """points, the distances rising, straight in between; outside of them there is no force"""
+    """points in ascending distance, linear between them; no force outside"""
     stroke: Literal["approach", "return", "both"] = "approach"
     """towards the dead centre, away from it, or both"""
     dead_centre: Literal["far", "near"] = "far"
-    """the one with the slider far from the crank's axis, or near to it"""
+    """dead centre far from the crank axis, or near to it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -265,7 +265,7 @@ AnyLoad = Annotated[SectorLoad | TableLoad | ToolLoad, Field(discriminator="type
 
 
 class Losses(Fragment):
-    """What the mechanism takes for itself, on the main shaft."""
+    """Losses of the mechanism, on the main shaft."""
 
     torque: Annotated[Torque, Absent("the useful load, or `share`, contains the friction")] = 0.0
     """constant friction torque"""
@@ -275,33 +275,33 @@ class Losses(Fragment):
         Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)],
         Absent("the useful load, or `torque`, contains the friction"),
     ] = 0.0
-    """friction torque over the useful torque, while it acts"""
+    """friction torque / useful torque, while it acts"""
 
 
 # -- weights and springs --------------------------------------------------------------------------------------------
 
 
 class Unbalance(Fragment):
-    """The weight of a mass that turns with the main shaft, off its axis."""
+    """The weight of an eccentric mass on the main shaft."""
 
     type: Literal["unbalance"]
     mass: PositiveMass
     """the mass"""
     radius: PositiveLength
     """of its centre of mass from the axis"""
-    top: Annotated[Angle, Absent("angles are counted from where the mass is on top")] = 0.0
-    """angle of the main shaft at which it is on top"""
+    top: Annotated[Angle, Absent("angles start at the top position of the mass")] = 0.0
+    """angle of the main shaft with the mass at the top"""
 
 
 class PotentialHarmonic(Fragment):
-    """A torque over the angle that has no mean: it gives back in a cycle what it takes."""
+    """A torque over the angle with zero mean: zero work per cycle."""
 
     type: Literal["harmonic"]
     order: Order
     """times per turn"""
-    cosine: Annotated[SignedTorque, Absent("the term has no such part")] = 0.0
+    cosine: Annotated[SignedTorque, Absent("the term has no such component")] = 0.0
     """factor of cos(order * angle) in the torque against the motion"""
-    sine: Annotated[SignedTorque, Absent("the term has no such part")] = 0.0
+    sine: Annotated[SignedTorque, Absent("the term has no such component")] = 0.0
     """factor of sin(order * angle) in the torque against the motion"""
 
 
@@ -315,11 +315,11 @@ class EnergyPoint(Fragment):
 
 
 class EnergyTable(Fragment):
-    """Energy stored in weights and springs over the angle; its slope is the torque, so a cycle takes nothing."""
+    """Energy stored in weights and springs over the angle; its slope is the torque, with zero work per cycle."""
 
     type: Literal["energy"]
     points: Annotated[tuple[EnergyPoint, ...], Field(min_length=3, max_length=500)]
-    """points within one cycle, the angles rising, joined by one closed cubic spline"""
+    """points within one cycle, in ascending angle, connected by one closed cubic spline"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -332,9 +332,9 @@ class ToolSpring(Fragment):
 
     type: Literal["tool_spring"]
     force: SignedForce
-    """with the slider farthest from the crank's axis; negative where it pushes away"""
+    """with the slider farthest from the crank axis; negative if it pushes away"""
     stiffness: Annotated[Stiffness, Absent("the force stays the same over the stroke")] = 0.0
-    """by how much the force falls per distance the slider comes nearer"""
+    """decrease of the force per distance towards the crank"""
 
 
 AnyPotential = Annotated[Unbalance | PotentialHarmonic | EnergyTable | ToolSpring, Field(discriminator="type")]
@@ -346,20 +346,20 @@ class Gear(Fragment):
     """The gear between motor and main shaft."""
 
     ratio: Annotated[PositiveRatio, Absent("the motor is on the main shaft")] = 1.0
-    """motor speed over speed of the main shaft"""
+    """motor speed / main shaft speed"""
     efficiency: Annotated[Efficiency | None, Assumed()] = None
     """from motor to main shaft; 0.94 is assumed when it is left out and the ratio is not 1"""
     reverse_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """from main shaft to motor, while the motor brakes; the same when left out"""
     braking: Literal["divides", "multiplies"] = "divides"
-    """what the efficiency does to the motor's torque while the motor brakes: `divides` by it, as the power then flows
-    back through the gear, or `multiplies` as while driving, as tables by hand do"""
+    """effect of the efficiency on the motor torque during braking: `divides` by it, as the power then flows
+    back through the gear, or `multiplies` as while driving, as in hand calculation"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """A gear that takes the same factor both ways has no efficiency of its own for the way back."""
         if "reverse_efficiency" in given and given.word("braking") == "multiplies":
-            reason = "nothing uses it: `braking: multiplies` takes `efficiency` in both directions"
+            reason = "it is unused: `braking: multiplies` uses `efficiency` in both directions"
             yield Conflict(("reverse_efficiency",), reason, "delete `reverse_efficiency`, or write `braking: divides`")
 
 
@@ -368,10 +368,10 @@ class Drive(Fragment):
 
     motor: AnyMotor
     """the motor"""
-    motor_inertia: Annotated[Inertia, Absent("`inertia` is that of everything that turns, the rotor too")] = 0.0
-    """of rotor, coupling and all else on the motor shaft; leave it out where `inertia` has it already"""
+    motor_inertia: Annotated[Inertia, Absent("`inertia` includes all rotating parts and the rotor")] = 0.0
+    """of rotor, coupling and all other parts on the motor shaft; omit it if `inertia` already includes it"""
     gear: Gear = Gear()
-    """the gear; without it the motor sits on the main shaft"""
+    """the gear; without it the motor is on the main shaft"""
 
 
 class Brake(Fragment):
@@ -385,7 +385,7 @@ class Brake(Fragment):
         Time,
         Assumed(0.0, 0.0, 0.1, "spring-applied and pneumatic brakes: up to 0.1 s from the first to the full torque"),
     ] = 0.0
-    """from the first to the full torque, in a straight line"""
+    """from first to full torque, linear rise"""
 
 
 # -- scenes, limits, machine ----------------------------------------------------------------------------------------
@@ -395,15 +395,15 @@ class ShaftChecks(CheckSettings):
     """Limits of the checks of a main shaft."""
 
     irregularity: Annotated[ShareAboveNothing | None, Limit()] = None
-    """largest irregularity (w_max - w_min)/w_mean of the steady cycle; 5 % for presses, 1 % for a generator ..."""
+    """maximum speed fluctuation (w_max - w_min)/w_mean of the steady cycle; 5 % for presses, 1 % for a generator"""
     run_up_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest run-up"""
+    """maximum run-up time"""
     stop_angle: Annotated[PositiveAngle | None, Limit()] = None
-    """largest angle of a braked run-out"""
+    """maximum stopping angle with brake"""
     stop_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest braked run-out"""
+    """maximum stopping time with brake"""
     breakdown_share: Annotated[ShareAboveNothing, Limit()] = 0.81
-    """largest motor torque over the breakdown torque; 0.9^2: a voltage 10 % low leaves so much of it"""
+    """maximum motor torque / breakdown torque; 0.9^2 at a voltage of 90 %"""
 
 
 class ShaftScene(Scene):
@@ -411,13 +411,13 @@ class ShaftScene(Scene):
 
 
 class RunUp(ShaftScene):
-    """The motor brings the shaft from rest to speed."""
+    """The run-up of the shaft from standstill to speed."""
 
     type: Literal["run_up"] = "run_up"
     start: Annotated[Angle, Setting("from the angle 0; the angle of the dead centre for a slider-crank")] = Field(
         default=0.0, alias="from"
     )
-    """angle of the main shaft at rest"""
+    """angle of the main shaft at standstill"""
     to: Annotated[PositiveAngularSpeed | None, Setting("95 % of the speed without load")] = None
     """speed of the main shaft at which the run-up ends; 95 % of that without load when left out"""
     load: Literal["idle", "full"] = "idle"
@@ -425,7 +425,7 @@ class RunUp(ShaftScene):
 
 
 class Steady(ShaftScene):
-    """The cycle that repeats itself."""
+    """The steady periodic cycle."""
 
     type: Literal["steady"] = "steady"
     load: Literal["full", "idle"] = "full"
@@ -433,38 +433,40 @@ class Steady(ShaftScene):
 
 
 class RunOut(ShaftScene):
-    """The drive is switched off in the steady cycle, and the shaft is braked or left to coast."""
+    """The drive is switched off in the steady cycle, and the shaft is braked or coasts."""
 
     type: Literal["run_out"] = "run_out"
     start: Annotated[Angle | None, Setting("the worst angle of the cycle is found")] = Field(default=None, alias="from")
-    """angle of the main shaft at that moment; the worst one when left out"""
+    """angle of the main shaft at switch-off; the worst angle when left out"""
     brake: Literal["on", "off"] | None = None
-    """whether the brake is applied; it is when the machine has one"""
+    """whether the brake is applied; default: on if the machine has a brake"""
     load: Literal["idle", "full"] = "idle"
-    """whether the useful load acts during the run-out"""
+    """whether the useful load acts during the stop"""
     after: Literal["full", "idle"] = "full"
-    """load of the steady cycle it begins in"""
+    """load of the preceding steady cycle"""
 
 
 AnyScene = Annotated[RunUp | Steady | RunOut, Field(discriminator="type")]
 
 
 class Shaft(MachineSpec):
-    """The main shaft of a machine, with all masses reduced to it."""
+    """The main shaft of a cyclic machine, with all masses reduced to it."""
 
     kind: Literal["shaft"]
-    speed: Annotated[PositiveAngularSpeed | None, Absent("a nominal speed is only compared with motor and gear")] = None
+    speed: Annotated[
+        PositiveAngularSpeed | None, Absent("a nominal speed, used only for comparison with motor and gear")
+    ] = None
     """nominal speed of the main shaft; compared with motor and gear"""
     cycle_angle: Annotated[
-        PositiveAngle, Absent("the machine repeats itself after a turn; parts that do not are refused")
+        PositiveAngle, Absent("one revolution is the period of the machine; parts with another period are rejected")
     ] = FULL_TURN
-    """angle after which the machine repeats itself"""
+    """period of the machine as an angle"""
     inertia: AnyInertia
     """inertia reduced to the main shaft"""
     drive: Drive
     """motor and gear"""
     load: AnyLoad | None = None
-    """the useful load; without it the machine runs idle"""
+    """the useful load; without it the machine idles"""
     losses: Losses = Losses()
     """friction"""
     potential: Annotated[tuple[AnyPotential, ...], Field(max_length=50)] = ()
@@ -474,7 +476,7 @@ class Shaft(MachineSpec):
     checks: ShaftChecks = ShaftChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; run-up, steady cycle and run-out when left out"""
+    """load cases; default: run-up, steady cycle and stop"""
 
     DEFAULT_SCENES: ClassVar[tuple[RunUp | Steady | RunOut, ...]] = (RunUp(), Steady(), RunOut())
 

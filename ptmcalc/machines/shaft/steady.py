@@ -144,7 +144,7 @@ def _finished(machine: Machine, orbit: Orbit, work: int) -> Cycle:
         rough = solve(grid, rate(machine, grid, law), fine.at(grid.angles))
         if rough is not None:
             return Cycle(machine, fine, rough, work + used + 4 * grid.angles.size)
-    raise NumericsError("NUM101", "the steady cycle is not found to its last digits")
+    raise NumericsError("NUM101", "the steady cycle is not found with full accuracy")
 
 
 def light_cycle(machine: Machine, near: Orbit) -> Cycle | None:
@@ -211,7 +211,7 @@ class _Map:
             while ends:
                 self.left -= 1
                 if self.left < 0:
-                    raise NumericsError("NUM103", f"no steady cycle is found by trying {_MOST_MARCHED} stretches")
+                    raise NumericsError("NUM103", f"no steady cycle is found within {_MOST_MARCHED} segments")
                 piece = self._solved(Grid(np.array([begin, ends[-1]]), FINE), np.full((1, FINE), e), e)
                 if piece is not None:
                     done.append(piece)
@@ -277,7 +277,7 @@ def _bracketed(back: _Map, low: float, high: float) -> Orbit:
         orbit = solve(near.grid, rate(back.machine, near.grid, running(back.machine)), near.nodes)
         if orbit is not None and orbit.multiplier < 1:
             return orbit
-    raise NumericsError("NUM101", "there is a steady cycle, and it is not found to its last digits")
+    raise NumericsError("NUM101", "the steady cycle exists but is not found with full accuracy")
 
 
 # -- refinement -----------------------------------------------------------------------------------------------------

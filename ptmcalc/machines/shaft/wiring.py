@@ -28,11 +28,11 @@ def needing_a_crank(given: Given) -> Iterator[Conflict]:
         return
     hint = "write `inertia: {type: slider_crank, ...}`, or give the load over the angle"
     if "load" in given and _type_of(given.block("load")) == "tool_force":
-        yield Conflict(("load", "tool_force", "type"), "only a slider-crank has a tool that a force can act on", hint)
+        yield Conflict(("load", "tool_force", "type"), "only a slider-crank has a tool for a force", hint)
     for index, one in enumerate(given.blocks("potential")):
         if _type_of(one) == "tool_spring":
             path = ("potential", index, "tool_spring", "type")
-            yield Conflict(path, "only a slider-crank has a tool that a spring can act on", hint)
+            yield Conflict(path, "only a slider-crank has a tool for a spring", hint)
 
 
 def not_repeated(given: Given) -> Iterator[Conflict]:
@@ -41,14 +41,14 @@ def not_repeated(given: Given) -> Iterator[Conflict]:
     if period is None:
         return
     shown = units.show(period, units.ANGLE)
-    hint = "write the angle after which the whole machine repeats itself, `360 deg` for most"
+    hint = "write the period of the whole machine, usually `360 deg`"
     inertia = given.block("inertia")
     for place, block in _tables(given, inertia):
         angles = [point.number("angle") if point else None for point in block.blocks("points")]
         known = [angle for angle in angles if angle is not None]
         if known and max(known) - min(known) >= period * (1 - _SAME):
-            reason = f"the points span a cycle of {shown} or more: the first one comes again at its end"
-            yield Conflict((*place, "points"), reason, "leave out the point at the end of the cycle")
+            reason = f"the points span a cycle of {shown} or more: the first point repeats at the end"
+            yield Conflict((*place, "points"), reason, "delete the point at the end of the cycle")
     load = given.block("load") if "load" in given else None
     for index, sector in enumerate(load.blocks("sectors") if load and _type_of(load) == "sectors" else ()):
         ends = (sector.number("from"), sector.number("to")) if sector else (None, None)
@@ -56,7 +56,7 @@ def not_repeated(given: Given) -> Iterator[Conflict]:
             yield Conflict(("load", "sectors", "sectors", index), f"the sector is wider than a cycle of {shown}", hint)
     for what, order in _orders(given, inertia):
         if not _whole(order * period / FULL_TURN):
-            yield Conflict(("cycle_angle",), f"{what} does not come again after {shown}", hint)
+            yield Conflict(("cycle_angle",), f"{what} has no period of {shown}", hint)
             return
 
 
@@ -105,8 +105,8 @@ def falling_below_zero(given: Given) -> Iterator[Conflict]:
         return
     lowest, _ = spline.through(places, np.array(values, float), period).range
     if lowest <= 0:
-        reason = f"the smooth curve through the points falls to {units.show(lowest, units.INERTIA)} between them"
-        hint = "give more points where the inertia changes fast: an inertia is above 0 at every angle"
+        reason = f"the smooth curve through the points decreases to {units.show(lowest, units.INERTIA)} between them"
+        hint = "add points where the inertia changes fast: an inertia must be above 0 at every angle"
         yield Conflict(("inertia", "table", "points"), reason, hint)
 
 

@@ -40,9 +40,9 @@ only whether the reference method fits into the available time. No load depends 
 
 
 def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-up, by steps in time from break to break.
+    """Time and angle of a run-up, by time steps between discontinuities.
 
-    **Range** rigid links, rotation in one sense, no more than some sixty cycles.
+    **Range** rigid links, rotation in one sense, at most about sixty cycles.
     **Error** as `steady`.
     **Source** as `steady`.
     """
@@ -110,18 +110,18 @@ def _stage(machine: Machine, stage: int, time: float, w: float) -> int:
 
 
 def run_out(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-out from the steady cycle: from an angle, or at the worst of many at once.
+    """Time and angle of a stop from the steady cycle: from a given angle, or from the worst of many angles.
 
-    **Range** rigid links, no useful load in it; the worst angle by narrowing down around the best of 32.
-    **Error** three times what two runs differ by, of a step and of half of it, with three
-    times what the last narrowing has changed.
+    **Range** rigid links, no useful load; the worst angle by refinement around the worst of 32 angles.
+    **Error** three times the difference of two runs with one step and half of it, plus three times the change by the
+    last refinement.
     **Source** the classical Runge-Kutta method; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I.
     """
     machine, braked = simulated_machine(spec, scene, carried), is_braked(spec, scene)
     before = machine_for(spec, scene.after)
     guess = next(iter(before.working_speeds), None)
     if guess is None:
-        raise NumericsError("NUM102", "the motor does not carry the mean load: no cycle to begin with")
+        raise NumericsError("NUM102", "the motor does not drive the mean load: there is no initial cycle")
     _, pieces = closed_cycle(before, guess, SECOND)
     law, steps = Law(machine, None, braked), 0
     if scene.start is not None or not braked:
@@ -311,7 +311,7 @@ def valid(spec: Shaft, scene: RunUp | Steady | RunOut) -> Criterion | None:
     if isinstance(scene, Steady):
         return None
     if isinstance(scene, RunOut) and machine_in(spec, scene).useful is not None:
-        return Criterion("load", 1.0, 1.0, "a useful load in the run-out", "the file")
+        return Criterion("load", 1.0, 1.0, "a useful load in the stop", "the file")
     return Criterion("n", _turned(spec, scene), _MOST_CYCLES, "cycles of the motion: too much work", "energy")
 
 

@@ -183,13 +183,13 @@ def steady(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> R
         de/dphi = w'(phi, w),  e = w^2/2,   P(w) = w by the secant
 
     **Range** rigid links; a motor that does not stall.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first.
     **Source** Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     machine, wanted = simulated_machine(spec, scene, carried), spec.checks.irregularity
     guess = next(iter(machine.working_speeds), None)
     if guess is None:
-        raise NumericsError("NUM102", "the motor does not carry the mean load: no cycle to begin with")
+        raise NumericsError("NUM102", "the motor does not drive the mean load: there is no initial cycle")
     found, steps = [], 0
     for tolerance in (FIRST, SECOND):
         loads, used = _of_cycle(machine, guess, tolerance)

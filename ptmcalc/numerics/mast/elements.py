@@ -52,7 +52,7 @@ class Elements:
         """The node at a place."""
         index = int(np.abs(self.places - place).argmin())
         if abs(self.places[index] - place) > _SAME * self.column.length:
-            raise NumericsError("NUM102", f"no node of the column is at {place:.6g} m")
+            raise NumericsError("NUM102", f"no node of the mast is at {place:.6g} m")
         return index
 
 
@@ -117,7 +117,7 @@ def _cut(column: Column, count: int, marks: tuple[float, ...]) -> tuple[FloatArr
     corners = [0.0]
     for place in wanted:
         if place > column.length * (1 + _SAME):
-            raise NumericsError("NUM102", f"{place:.6g} m is beyond the column")
+            raise NumericsError("NUM102", f"{place:.6g} m is beyond the mast")
         if place - corners[-1] > _SAME * column.length:
             corners.append(place)
     places: list[float] = [0.0]

@@ -25,7 +25,7 @@ _COARSE = 2
 """Times as many elements as those a bar is found with."""
 _ROUNDING = 4 * float(np.finfo(float).eps)
 _NO_STIFFNESS = (
-    "the column buckles under its weights, or two points on it are too close to each other to compute the stiffness"
+    "the mast buckles under its weights, or two points on it are too close to each other to compute the stiffness"
 )
 _BAR = 1.0
 """Share of the difference to half as many elements that a frequency may be wrong by; the fourth power says 1/15."""
@@ -96,7 +96,7 @@ def _modes(factor: FloatArray, mass: FloatArray) -> tuple[FloatArray, FloatArray
     squares, turned = squares[::-1], turned[:, ::-1]
     count = int((squares > MASSLESS * squares[0]).sum()) if squares[0] > 0 else 0
     if not count:
-        raise NumericsError("NUM102", "a column without any mass does not vibrate")
+        raise NumericsError("NUM102", "a massless mast does not vibrate")
     roots = np.sqrt(squares[:count])
     found = 1 / roots, (factor.T @ turned[:, :count]) / roots
     for one in found:

@@ -72,13 +72,13 @@ class Column:
         numbers = [number for part in self.segments for number in (part.length, part.bending)]
         numbers += [self.root_rotation, self.root_translation, *(prop.stiffness for prop in self.props)]
         if not (self.segments and all(number > 0 for number in numbers)):
-            raise NumericsError("NUM102", "lengths and stiffnesses of a column are above 0")
+            raise NumericsError("NUM102", "lengths and stiffnesses of a mast are above 0")
         masses = [self.root_mass, self.root_inertia, *(segment.mass for segment in self.segments)]
         masses += [number for lump in self.lumps for number in (lump.mass, lump.inertia)]
         if not all(0 <= number < math.inf for number in masses):
-            raise NumericsError("NUM102", "a column and what it carries have no mass below 0")
+            raise NumericsError("NUM102", "the masses of a mast and its attachments are not below 0")
         places = [*(lump.place for lump in self.lumps), *(prop.place for prop in self.props)]
         if not all(0 <= place <= self.length * (1 + 1e-12) for place in places):
-            raise NumericsError("NUM102", "what a column carries is on it")
+            raise NumericsError("NUM102", "attachments are on the mast")
         if not (math.isfinite(self.pull) and math.isfinite(sum(numbers[: 2 * len(self.segments)]))):
-            raise NumericsError("NUM102", "a column's sizes are finite")
+            raise NumericsError("NUM102", "the dimensions of a mast are finite")

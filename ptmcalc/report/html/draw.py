@@ -119,7 +119,7 @@ def courses(figure: FigureReport, ident: str) -> Drawing:
     svg = _svg(draw, labels, ident, figure.title, _description(figure, curves, quantity, over))
     if len(figure.curves) > MOST_CURVES:
         more = ", ".join(curve.title for curve in figure.curves[MOST_CURVES:])
-        keys.append(Key("", f"not drawn, for room: {more}"))
+        keys.append(Key("", f"not shown for lack of space: {more}"))
     return Drawing(svg, tuple(keys))
 
 
@@ -171,7 +171,7 @@ def _intervals(axes: "Axes", curve: Curve, number: int, unit: float, frame: tupl
             ends = max(least / unit, low), min(most / unit, high)
             axes.axhspan(*ends, color=_ink(number), alpha=0.16, linewidth=0, zorder=1)
             says = f"interval of: {title}"
-            cut = " (goes on beyond the picture)" if least / unit < low or most / unit > high else ""
+            cut = " (continues outside the figure)" if least / unit < low or most / unit > high else ""
             yield Key("band", says + cut, colour(number))
 
 
@@ -198,7 +198,7 @@ def _thresholds(
         for value in inside:
             axes.axhline(value, color=_LIMIT, linewidth=1.3, dashes=(5, 2), zorder=2)
             placed.append(((value - low) / (high - low), letter))
-        beyond = "" if inside else ", beyond the picture"
+        beyond = "" if inside else ", outside the figure"
         keys.append(Key("limit" if inside else "", f"{title}: {said}{beyond}", letter=letter if inside else ""))
     for up, letters in _apart(placed, 2 * _APART):
         axes.text(1.012, up, letters, transform=axes.transAxes, va="center", ha="left")
@@ -324,7 +324,7 @@ def events(scene: SceneReport, ident: str) -> Drawing:
     svg = _svg(draw, (f"time [{unit}]", "part"), ident, f"Events of {scene.name}", said, grid="x")
     keys = [Key("part", element, letter=str(number)) for number, element in enumerate(shown, 1)]
     if len(elements) > len(shown):
-        keys.append(Key("", f"not drawn, for room: {', '.join(elements[len(shown) :])}"))
+        keys.append(Key("", f"not shown for lack of space: {', '.join(elements[len(shown) :])}"))
     keys += [Key("state", state, colour(number)) for number, state in enumerate(states)]
     return Drawing(svg, tuple(keys))
 

@@ -102,7 +102,7 @@ def test_a_belt_that_slips_and_never_stops_fails_with_its_cure(name: str) -> Non
         assert one.value is not None
         assert one.value.value == math.inf
         assert "does not stop" in one.reason
-        assert "more take-up tension" in one.reason
+        assert "increase the take-up tension" in one.reason
         assert one.blame.path == ("takeup", "tension")
 
 

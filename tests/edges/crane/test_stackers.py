@@ -194,7 +194,7 @@ class TestMotorCurve:
         (scene,) = report_of(self._data("60 N*m", "45 N*m", "40 N*m")).scenes
         found = {one.code: one.verdict for one in scene.checks}
         assert {found[code] for code in ("CRN204", "CRN207", "CRN209")} == {Verdict.UNDECIDED}
-        assert any("follows a motor's curve" in one.reason for one in scene.checks)
+        assert any("follows a motor curve" in one.reason for one in scene.checks)
 
     def test_a_drive_that_pushes_on_has_the_largest_torque_of_its_curve(self) -> None:
         spec = loaded(self._data("60 N*m", "20 N*m", "40 N*m")).spec

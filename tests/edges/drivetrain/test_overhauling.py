@@ -184,7 +184,7 @@ def test_an_impulse_beyond_the_curve_fails() -> None:
     assert check_of(found(torque=load), "DRV111").verdict is Verdict.PASS
     one = check_of(found(torque=load, rest="impulses: {blow: {at: motor, time: 5 s, size: 100 N*m*s}}"), "DRV111")
     assert one.verdict is Verdict.FAIL
-    assert "above the speed of the greatest braking torque" in one.reason
+    assert "above the speed of the maximum braking torque" in one.reason
 
 
 def test_a_stop_is_not_judged() -> None:

@@ -1,4 +1,4 @@
-"""Hoists whose load drives the motor beyond its curve, whose motor has two ratings, or a curve that brakes in the mean.
+"""Hoists whose load overcomes the braking torque of the motor, with two ratings, or a curve that brakes in the mean.
 
 Right values by the balance of every sheave, gear and motor shaft, written out here.
 """

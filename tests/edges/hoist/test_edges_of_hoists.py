@@ -15,7 +15,7 @@ def test_a_motor_that_lowers_the_load_it_lifts_fails() -> None:
     assert one.verdict is Verdict.FAIL
     assert one.value is not None
     assert one.value.value == pytest.approx(25.1 / 37.4, rel=2e-3)
-    assert "the load lowers" in one.reason
+    assert "the load descends" in one.reason
     assert "NUM110" not in codes(found)
 
 

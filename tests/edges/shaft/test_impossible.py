@@ -20,7 +20,7 @@ def test_losses_above_the_torque_of_the_motor() -> None:
     assert ": fail SHF101" in line
     assert "120 %" in line
     assert "125.7 J are missing" in line
-    assert "more than 120 N*m would do" in line
+    assert "more than 120 N*m would be sufficient" in line
 
 
 def test_a_motor_that_the_load_never_holds() -> None:
@@ -29,4 +29,4 @@ def test_a_motor_that_the_load_never_holds() -> None:
     assert (216 - 120) * 2 * math.pi - 600 == pytest.approx(3.186, abs=1e-3)
     assert ": fail SHF101" in line
     assert "3.186 J more in each cycle" in line
-    assert "speeds up without end" in line
+    assert "accelerates without limit" in line

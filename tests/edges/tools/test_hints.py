@@ -108,14 +108,14 @@ WORDS = [
     ("conveyor", "Fluid-Coupling", "did you mean `curve` under `drive.motor`, or under `scenes.profile`?"),
     ("conveyor", "counterweight", "did you mean `mass` under `takeup`?"),
     ("conveyor", "wrap", "did you mean `wrap` under `drive.drum`?"),
-    ("hoist", "holdback", "this kind of machine has no key for `holdback` in this version"),
+    ("hoist", "holdback", "this machine kind has no key for `holdback` in this version"),
     ("hoist", "VFD", "did you mean `profile` under `scenes`?"),
     ("crane travelling", "VFD", "did you mean `type: converter` under `drive.motor.curve`?"),
-    ("crane travelling", "s-curve", "this kind of machine has no key for `s-curve` in this version"),
+    ("crane travelling", "s-curve", "this machine kind has no key for `s-curve` in this version"),
     ("crane travelling", "travel", "did you mean `stroke` under `buffers`?"),
     ("chain_drive", "hold_back", "did you mean `backstop`?"),
-    ("shaft", "s-curve", "this kind of machine has no key for `s-curve` in this version"),
-    ("shaft", "fluid coupling", "this kind of machine has no key for `fluid coupling` in this version"),
+    ("shaft", "s-curve", "this machine kind has no key for `s-curve` in this version"),
+    ("shaft", "fluid coupling", "this machine kind has no key for `fluid coupling` in this version"),
 ]
 
 

@@ -163,5 +163,5 @@ def test_a_combination_without_a_run_says_which_scene_is_missing() -> None:
 def test_tables_are_printed(form: Format) -> None:
     out = render(form, (_report(OVERHEAD),), width=160, color=False)
     assert "11.1,3" in out
-    assert "fork caught by the rack while hoisting" in out
-    assert "combinations 1, 2 and 6 take the same loads" in " ".join(out.split())
+    assert "fork snagged in the rack while hoisting" in out
+    assert "combinations 1, 2 and 6 have the same loads" in " ".join(out.split())

@@ -267,7 +267,7 @@ def test_a_hit_buffer_that_is_too_short_tells_the_speed_left() -> None:
     mass = 15200 + 2 * 0.008 * 22**2 * 0.9 / 0.1575**2
     left = math.sqrt(1.05**2 - 2e5 * 0.1**2 / mass)
     assert load_of(scene, "buffer_speed_left").estimate.value == pytest.approx(left, rel=5e-4)
-    assert "is left at the end of their stroke" in load_of(scene, "buffer_stroke").note
+    assert "at the end of their stroke" in load_of(scene, "buffer_stroke").note
     assert {one.code: one.verdict for one in scene.checks}["CRN170"] == "fail"
 
 
@@ -290,7 +290,7 @@ def test_wheels_that_slide_are_said_once() -> None:
     report = report_of(crane(drive__acceleration="0.9 m/s^2"))
     said = [one.message for one in report.diagnostics if one.code == "NUM102"]
     assert len(said) == 1
-    assert "driven wheels slide" in said[0]
+    assert "driven wheels slip" in said[0]
 
 
 def test_brakes_that_do_not_stop_it_are_said_once() -> None:

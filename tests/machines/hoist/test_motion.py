@@ -168,7 +168,7 @@ class TestC25:
         found = check_of(scene, "HST122")
         assert found.verdict is Verdict.FAIL
         assert math.isinf(value(scene, "stop_distance_lowering"))
-        assert "goes down to the ground" in found.reason
+        assert "descends to the ground" in found.reason
         assert not [one for one in report.diagnostics if one.code == "NUM110"]
 
 
@@ -297,7 +297,7 @@ class TestStall:
         report = report_of(reduced(5000.0, 18000.0, 1.2e6, 0.05, 0.8 * 5000 * G, {"type": "start"}))
         found = check_of(scene_of(report), "HST114")
         assert found.verdict is Verdict.FAIL
-        assert "the load lowers" in found.reason
+        assert "the load descends" in found.reason
 
 
 def test_a_limiter_ends_a_hard_lift() -> None:

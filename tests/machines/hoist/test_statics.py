@@ -488,7 +488,7 @@ class TestDisagreement:
     def test_motor_gear_and_speed(self) -> None:
         (found,) = report_of(changed(CRANE, gearbox__ratio=90)).diagnostics
         assert found.code == "SPC201"
-        assert "turn the drum at 16.22 rpm" in found.message
+        assert "result in a drum speed of 16.22 rpm" in found.message
 
     @pytest.mark.parametrize("power", ["22 kW", "2200 kW"])
     def test_a_motor_that_starts_with_less_than_its_rated_torque(self, power: str) -> None:

@@ -202,8 +202,8 @@ class TestBadInput:
         ("changes", "path", "said"),
         [
             ({"scenes": [{"type": "winding", "load": "empty"}]}, "load", "without a mass"),
-            ({"scenes": [{"type": "winding", "hook_height": "40 m"}]}, "hook_height", "no rope is free"),
-            ({"winding__crossover": "181 deg"}, "crossover", "more than the whole turn"),
+            ({"scenes": [{"type": "winding", "hook_height": "40 m"}]}, "hook_height", "the free rope length is zero"),
+            ({"winding__crossover": "181 deg"}, "crossover", "exceed one turn"),
         ],
     )
     def test_is_told_at_its_key(self, changes: dict[str, Any], path: str, said: str) -> None:

@@ -12,13 +12,14 @@ from ptmcalc.machines.chain_drive.strength import OF_TENSION, QUIET, Answer, Tai
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Most that the polygon effect can add to any tension.
+    """Upper bound of the tension added by the polygon effect.
 
-        S <= sum |D(w_n)| |b_n|/w_n^2,   w_n = 2 pi n V/p,   and what lies behind the last harmonic
+        S <= sum |D(w_n)| |b_n|/w_n^2,   w_n = 2 pi n V/p,   plus the remainder after the last harmonic
 
-    **Range** linear strands that stay taut, with whatever ends; infinite at a resonance without damping.
-    **Error** a bound: up to twice the largest tension near a resonance and several times it between two.
-    **Source** triangle inequality on the Fourier series; its rest in `numerics.harmonic.rest`.
+    **Range** linear taut strands with any end conditions; infinite at a resonance without damping.
+    **Error** a bound: up to twice the maximum tension near a resonance and several times that tension between two
+    resonances.
+    **Source** triangle inequality on the Fourier series; remainder in `numerics.harmonic.rest`.
     """
     bound = answer_bound(spec, scene, carried, near=True)
     most = Estimate(bound, 0.0, bound, bound) if math.isfinite(bound) else Estimate.unknown(bound)

@@ -13,7 +13,7 @@ from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Resonance speeds of all tooth harmonics and modes, and the safe speeds between them.
+    """Resonance speeds of all tooth harmonics and modes, and the safe speed ranges between them.
 
         V_nk = p f_k/n,   too near: |V/V_nk - 1| < max(band, 2 zeta_k) where W_nk reaches the weight of the file
 
@@ -79,8 +79,8 @@ def _findings(spec: ChainDrive, scene: Run, carried: frozenset[str], found: Reso
     safe = [units.show(speed, units.SPEED) for speed, _ in known]
     nearer = units.show(min(known, key=lambda one: one[1])[0], units.SPEED)
     message = (
-        f"scene `{scene.label}`: harmonic {order} of the teeth meets natural frequency {mode} of the chain at {meets};"
-        f" the nearest speeds outside the bands of resonances are {' and '.join(safe)}"
+        f"scene `{scene.label}`: harmonic {order} of the teeth coincides with natural frequency {mode} of the chain at"
+        f" {meets}; the nearest speeds outside the bands of resonances are {' and '.join(safe)}"
     )
     return (Finding("NUM109", message, ("speed",), f"write e.g. `speed: {nearer}`"),)
 

@@ -39,11 +39,11 @@ def _unless_resonant(path: Callable[[ChainDrive, Run], KeyPath]) -> Callable[[Ch
 
 
 def _resonance_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """The speed lies outside the band of every resonance that matters.
+    """The speed is outside the band of every relevant resonance.
 
-    **Range** bands of 15 % of the resonance speed by default, twice the damping ratio where that is more.
+    **Range** bands of 15 % of the resonance speed by default, or twice the damping ratio if that is larger.
     **Error** none: a chosen limit.
-    **Source** engineering rule; what matters by the weight 0.5 m a_max.
+    **Source** engineering rule; a resonance is relevant from a force of 0.5 m a_max.
     """
     return Estimate.exact(spec.checks.resonance.band)
 
@@ -77,9 +77,9 @@ RESONANCE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.effects.get(PO
 
 
 def _dynamic_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Safety asked of the chain against the largest tension of steady running.
+    """Required safety factor of the chain for the maximum tension of steady running.
 
-    **Range** 7 for conveyors, 5 for drives between shafts, or what the file says.
+    **Range** 7 for conveyors, 5 for drives between shafts, or the value of the file.
     **Error** none: a chosen limit.
     **Source** handbooks: 7 to 10 for traction chains; DIN 8195:1977: 5 under dynamic load for roller chains.
     """
@@ -108,18 +108,18 @@ DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
     " includes the polygon effect and the centrifugal force.",
     why="The polygon effect loads the chain once per tooth and fatigues plates and pins. A broken chain runs away.",
     formula="F_B/(c (S_static + S_polygon + m V^2)) >= n",
-    source="chain makers' handbooks; lecture notes Kramatorsk 2007: S = S_C + S_D",
+    source="chain manufacturers' handbooks; lecture notes Kramatorsk 2007: S = S_C + S_D",
 )
 
 # -- joints ---------------------------------------------------------------------------------------------------------
 
 
 def _pressure_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Largest pressure in the joints of the file.
+    """Permissible bearing pressure of the link joints, given in the file.
 
     **Range** 20 to 30 MPa is usual, less for fast chains and poor lubrication.
     **Error** none: a chosen limit.
-    **Source** chain makers' handbooks.
+    **Source** chain manufacturers' handbooks.
     """
     asked = spec.checks.joint_pressure
     return Estimate.exact(math.inf if asked is None else asked)
@@ -142,7 +142,7 @@ PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
         " file.",
         why="Above the limit the oil film breaks, and the link joints wear many times as fast.",
         formula="c S/(d b) <= p",
-        source="ISO 606:2015, bearing area; chain makers' handbooks",
+        source="ISO 606:2015, bearing area; chain manufacturers' handbooks",
     )
 )
 
@@ -150,11 +150,11 @@ PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
 
 
 def _slack_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Smallest tension of the file, 0 N by default.
+    """Minimum tension given in the file, 0 N by default.
 
     **Range** steady running; the ends of the strands, at drive and tail.
     **Error** none: a chosen limit.
-    **Source** a chain does not push: where the tension is gone, it piles up and jumps teeth.
+    **Source** a chain carries no compression: without tension it piles up and jumps teeth.
     """
     return Estimate.exact(spec.checks.least_tension)
 
@@ -187,9 +187,9 @@ SLACK: Check[ChainDrive, Run] = Check(
 
 
 def _fatigue_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Largest use of the permissible stress amplitude.
+    """Maximum utilisation of the permissible stress amplitude.
 
-    **Range** 1 uses all of it.
+    **Range** 1 is full utilisation.
     **Error** none: a chosen limit.
     **Source** Goodman's line.
     """
@@ -214,6 +214,6 @@ FATIGUE = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
         " the required life. The mean stress counts by Goodman's line if the strength of the plates is given.",
         why="A chain passes millions of teeth. Overstressed plates crack at their holes.",
         formula="s_a/s_lim + s_m/R_m <= 1,   s_a = c (S_max - S_min)/(2 A)",
-        source="J. Goodman 1899; limits by chain makers",
+        source="J. Goodman 1899; limits by chain manufacturers",
     )
 )

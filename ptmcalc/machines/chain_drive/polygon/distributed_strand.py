@@ -35,16 +35,16 @@ step. No load depends on it."""
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Largest and smallest dynamic tension of a chain that the teeth drive unevenly.
+    """Maximum and minimum dynamic tension of a chain under the polygon effect.
 
         S(t) = sum Im(D(w_n) (-b_n/w_n^2) e^(i w_n t)),   w_n = 2 pi n V/p
 
-    D is the dynamic stiffness of the strands with the ends of the machine: constant tension with or without a mass
-    that moves, a held end, or the other run of the same sprocket; the far end may be moved by a polygon of its own.
-    The largest tension over a range of speeds is the course of the load `tension_dynamic_polygon`.
+    D is the dynamic stiffness of the strands with the ends of the machine: constant tension with or without a moving
+    mass, a fixed end, or the other strand of the same sprocket. The far end may have a polygon effect of its own. The
+    maximum tension over a range of speeds is the curve of the load `tension_dynamic_polygon`.
 
-    **Range** linear strands that stay taut; tensions at both ends of what vibrates and at the tail.
-    **Error** told: what lies behind the last harmonic and between samples, both bounded; rounding.
+    **Range** linear taut strands; tensions at both ends of the vibrating strands and at the tail.
+    **Error** bounded: harmonics after the last one and values between samples; rounding.
     **Source** `numerics.harmonic`; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, for the motion of the sprocket.
     """
     count = HARMONICS[level]
@@ -97,7 +97,9 @@ def _near_a_step(spec: ChainDrive) -> tuple[Finding, ...]:
 def _without_damping(spec: ChainDrive, scene: Run) -> tuple[Finding, ...]:
     if not undamped(spec, scene):
         return ()
-    message = "a chain without damping has no bound for its polygon tension: its high harmonics meet modes at any speed"
+    message = (
+        "the polygon tension of a chain without damping has no bound: at any speed, high harmonics coincide with modes"
+    )
     return (Finding("NUM102", message, ("chain", "damping"), "write `damping: {ratio: 0.05}`, or a measured ratio"),)
 
 

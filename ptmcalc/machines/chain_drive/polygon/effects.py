@@ -72,39 +72,45 @@ def _of_safety(spec: ChainDrive, known: Estimate, tension: Estimate, by: float) 
 
 
 def polygon_criterion(spec: ChainDrive, scene: Run) -> Criterion:
-    """Most the polygon effect can add to a tension, over the largest static one.
+    """Upper bound of the tension added by the polygon effect, relative to the maximum static tension.
 
         E = sum |D(w_n)| |b_n|/w_n^2 / (S_static + m V^2)
 
-    **Range** any ends; sees a held loop, whose polygon tension does not vanish with the speed, and a heavy far end.
+    **Range** any end conditions, including a loop of fixed length, whose polygon tension does not vanish at low speed,
+    and a heavy far end.
     **Error** an upper bound of the ratio.
     **Source** triangle inequality on the Fourier series; the threshold of 5 % is an engineering choice.
     """
     scale, bound = static_scale(spec, scene), answer_bound(spec, scene, frozenset({FAR}), near=True)
     value = bound / scale if scale > 0 else math.inf if bound > 0 else 0.0
     return Criterion(
-        "E", value, POLYGON_THRESHOLD, "tension the polygon effect can add, over the static one", "numerics.harmonic"
+        "E",
+        value,
+        POLYGON_THRESHOLD,
+        "maximum tension added by the polygon effect / static tension",
+        "numerics.harmonic",
     )
 
 
 def polygon_bound(spec: ChainDrive, scene: Run, loads: Loads) -> Offsets:
-    """Most that leaving out the polygon effect changes each load: the sum of its absolute harmonics either way.
+    """Bound of the change of each load if the polygon effect is neglected: plus or minus the sum of its absolute
+    harmonics.
 
     **Range** linear strands that stay taut; unbounded at a resonance without damping.
     **Error** a bound.
-    **Source** triangle inequality on the Fourier series; `numerics.harmonic.rest` behind the last harmonic.
+    **Source** triangle inequality on the Fourier series; `numerics.harmonic.rest` after the last harmonic.
     """
     return _moved(spec, loads, answer_bound(spec, scene, frozenset({FAR}), near=True))
 
 
 def far_criterion(spec: ChainDrive, scene: Run) -> Criterion:
-    """Most that the motion of the far end can add to a tension, over the most that both ends can.
+    """Upper bound of the tension added by the motion of the far end, relative to the bound of both ends.
 
         E = sum |D_12(w_n)| |b_n|/w_n^2 / sum (|D_11(w_n)| |b_n| + |D_12(w_n)| |b_n|)/w_n^2
 
-    **Range** the run-off of the same sprocket with a screw or a take-up weight, a driven tail, a driven sprocket; 0
-    where the far end keeps its tension.
-    **Error** exact but for what lies behind the last harmonic.
+    **Range** the leaving strand of the same sprocket with a screw or a take-up weight, a driven tail, a driven
+    sprocket; 0 if the far end has a constant tension.
+    **Error** exact except for the harmonics after the last one.
     **Source** triangle inequality on the Fourier series; the threshold of 5 % is an engineering choice.
     """
     whole, bound = answer_bound(spec, scene, frozenset({FAR}), near=True), _far(spec, scene)
@@ -113,7 +119,7 @@ def far_criterion(spec: ChainDrive, scene: Run) -> Criterion:
         "E_2",
         value,
         FAR_THRESHOLD,
-        "share of the polygon effect that the motion of the far end can have",
+        "share of the far end motion in the polygon effect",
         "numerics.harmonic",
     )
 
@@ -125,7 +131,7 @@ def _far(spec: ChainDrive, scene: Run) -> float:
 
 
 def far_bound(spec: ChainDrive, scene: Run, loads: Loads) -> Offsets:
-    """Most that leaving out the motion of the far end changes each load: the sum of its absolute harmonics.
+    """Bound of the change of each load if the motion of the far end is neglected: the sum of its absolute harmonics.
 
     **Range** as the criterion.
     **Error** a bound.
@@ -135,23 +141,24 @@ def far_bound(spec: ChainDrive, scene: Run, loads: Loads) -> Offsets:
 
 
 def weak_criterion(spec: ChainDrive, scene: Run) -> Criterion | None:
-    """Mass of chain and load over that of the drive, reduced to the chain.
+    """Ratio of the mass of chain and load to the drive mass reduced to the chain.
 
         e = m/(J/r^2)
 
-    **Range** drives whose motors and gear are given; those that are not count as infinitely heavy.
-    **Error** exact; a drive gives way by about this share of the chain's own motion away from resonances.
+    **Range** drives with given motors and gear; a drive without them counts as infinitely heavy.
+    **Error** exact; away from resonances, the drive moves by about this share of the chain motion.
     **Source** S. Mahalingam, "Polygonal action in chain drives": the drive in series; the threshold of 5 % is an
     engineering choice.
     """
     if spec.drive is None:
         return None
     value = chain_line(spec, scene).moving_mass / drive_mass(spec, inertia.ENERGY)
-    return Criterion("e", value, WEAK_THRESHOLD, "mass of the chain over that of the drive", "Mahalingam")
+    return Criterion("e", value, WEAK_THRESHOLD, "mass of the chain / mass of the drive", "Mahalingam")
 
 
 def weak_bound(spec: ChainDrive, scene: Run, loads: Loads) -> Offsets:
-    """Most that a drive which gives way changes: tensions harmonic by harmonic, resonance speeds by both frequencies.
+    """Bound of the change due to the compliance of the drive: tensions per harmonic, resonance speeds from both
+    frequencies.
 
         |dS| <= sum |D'_n - D_n| |b_n|/w_n^2,   dV = V' - V
 

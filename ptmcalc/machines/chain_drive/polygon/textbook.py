@@ -17,9 +17,9 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
 
         S_D = 3 m a_max,   m = (m_G + lambda m_K) L        V = K (p/L) (A/q)^(1/2),  K = 3500
 
-    **Range** conveyors whose tail is not driven; lambda by a table of lengths with steps at 25 and 60 m.
-    **Error** no bound: unsafe near every resonance unless the first mode has 10 % of damping, too high above the first
-    one. It never decides.
+    **Range** conveyors without a driven tail; lambda from a table of lengths with steps at 25 m and 60 m.
+    **Error** no bound: on the unsafe side near every resonance if the first mode has less than 10 % damping, too high
+    above the first resonance. The formula never decides a verdict.
     **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007 (`laws.polygon`, `laws.chain_resonance`).
     """
     length, load = filled(getattr(spec.layout, "length", None)), load_line_mass(spec, scene)

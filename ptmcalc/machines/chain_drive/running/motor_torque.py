@@ -17,11 +17,12 @@ def motors_of(spec: ChainDrive) -> dict[str, Motors]:
 
 
 def run(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: int) -> Result:
-    """Reserve of the motors in steady running, and the share of its rated torque that each gives or brakes with.
+    """Torque reserve of the motors in steady running, and the driving or braking torque of each motor relative to its
+    rated torque.
 
         steady_reserve = max of F(v) / W,   motor_utilisation = |M|/M_n
 
-    A start is held against the steady running that follows it.
+    A start is assessed for the steady running that follows it.
 
     **Range** motors with a curve.
     **Error** exact.

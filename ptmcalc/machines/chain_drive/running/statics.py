@@ -11,13 +11,13 @@ from ptmcalc.machines.chain_drive.strength import AT_REST, OF_TENSION, loads_of_
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Loads of a chain that runs evenly.
+    """Loads of a chain in steady running.
 
         S_tail = S_off + W_return - q_0 g H,   S_on = S_tail + F + W_working + (q_0 + q_G) g H
 
     **Range** straight strands; between two shafts the slack strand hangs in a flat arc.
-    **Error** no bar of its own: what the polygon effect adds is in the bound of that effect.
-    **Source** equilibrium strand by strand; kinematics of the polygon (`laws.sprocket`, `laws.polygon`).
+    **Error** no error bar of its own; the bound of the polygon effect covers the added tension.
+    **Source** equilibrium of each strand; kinematics of the polygon (`laws.sprocket`, `laws.polygon`).
     """
     line = chain_line(spec, scene)
     loads = _of_motion(spec) | _of_tensions(line)

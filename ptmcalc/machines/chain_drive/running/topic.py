@@ -23,7 +23,7 @@ RUNNING: Topic[ChainDrive] = Topic(
         LoadInfo("tension_design", "total chain tension, maximum", units.FORCE, governing=True),
         LoadInfo("tension_min", "total chain tension, minimum", units.FORCE, governing=True),
         LoadInfo("steady_reserve", "motor torque reserve, steady running", units.RATIO),
-        LoadInfo("motor_utilisation", "motor torque / rated torque, steady running", units.SHARE, headline=False),
+        LoadInfo("motor_utilisation", "motor torque utilisation, steady running", units.SHARE, headline=False),
         LoadInfo("wave_speed", "wave speed, loaded strand", units.SPEED, headline=False),
         LoadInfo("wave_travel_time", "wave transit time, vibrating strands", units.TIME, headline=False),
         LoadInfo("safety_dynamic", "safety factor, steady running", units.RATIO, governing=True),

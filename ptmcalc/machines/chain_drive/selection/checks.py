@@ -25,11 +25,11 @@ def _between_shafts(spec: ChainDrive, scene: Run) -> bool:
 
 
 def _static_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Safety asked of the chain against its static and centrifugal tension.
+    """Required safety factor of the chain for static and centrifugal tension.
 
-    **Range** 10 for conveyors, 7 for drives between shafts, or what the file says.
+    **Range** 10 for conveyors, 7 for drives between shafts, or the value of the file.
     **Error** none: a chosen limit.
-    **Source** handbooks: 7 to 10 for traction chains; DIN 8195:1977: 7 at rest for roller chains.
+    **Source** handbooks: 7 to 10 for traction chains; DIN 8195:1977: 7 for static load of roller chains.
     """
     asked = spec.checks.safety_static
     return Estimate.exact(asked if asked is not None else SAFETY[type(spec.layout)][0])
@@ -50,14 +50,14 @@ STATIC_SAFETY: Check[ChainDrive, Run] = Check(
     what="The breaking load is at least the safety factor times the sum of static and centrifugal tension.",
     why="Wear, shocks and the uneven load share of parallel chains consume the apparent reserve.",
     formula="F_B/(c (S_static + m V^2)) >= n",
-    source="chain makers' handbooks; lecture notes Kramatorsk 2007",
+    source="chain manufacturers' handbooks; lecture notes Kramatorsk 2007",
 )
 
 # -- life -----------------------------------------------------------------------------------------------------------
 
 
 def _life_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Wanted life of the file.
+    """Required life given in the file.
 
     **Range** any.
     **Error** none: a chosen limit.
@@ -100,7 +100,7 @@ LIFE = only(lambda spec, scene: spec.checks.life is not None or spec.wear is not
 
 
 def _wrap_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Smallest wrap of a sprocket, 120 deg by default.
+    """Minimum wrap angle of a sprocket, 120 deg by default.
 
     **Range** drives between shafts.
     **Error** none: a chosen limit.
@@ -141,7 +141,7 @@ WRAP = only(_between_shafts)(
 
 
 def _teeth_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Fewest teeth: 6 for conveyors, 17 for drives, or what the file says.
+    """Minimum number of teeth: 6 for conveyors, 17 for drives, or the value of the file.
 
     **Range** traction chains at low speed; roller chains.
     **Error** none: a chosen limit.
@@ -179,7 +179,7 @@ TEETH: Check[ChainDrive, Run] = Check(
 
 
 def _ratio_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Largest ratio of the teeth, 6 by default.
+    """Maximum transmission ratio, 6 by default.
 
     **Range** drives between shafts.
     **Error** none: a chosen limit.
@@ -211,7 +211,7 @@ RATIO = only(_between_shafts)(
 
 
 def _least_distance(spec: ChainDrive, scene: Run) -> Estimate:
-    """Smallest distance of the shafts in pitches, 30 by default.
+    """Minimum centre distance in pitches, 30 by default.
 
     **Range** drives between shafts.
     **Error** none: a chosen limit.
@@ -221,9 +221,9 @@ def _least_distance(spec: ChainDrive, scene: Run) -> Estimate:
 
 
 def _most_distance(spec: ChainDrive, scene: Run) -> Estimate:
-    """Largest distance of the shafts in pitches, 80 by default.
+    """Maximum centre distance in pitches, 80 by default.
 
-    **Range** drives between shafts whose strands nothing supports.
+    **Range** drives between shafts with unsupported strands.
     **Error** none: a chosen limit.
     **Source** handbooks: 30 to 50 pitches, 80 at most.
     """
@@ -234,8 +234,8 @@ NEAR_SHAFTS = only(_between_shafts)(
     Check(
         code="CHN111",
         title="minimum centre distance",
-        question="Is the centre distance long enough, in pitches?",
-        failure="centre distance is too short",
+        question="Is the centre distance large enough, in chain pitches?",
+        failure="centre distance is too small",
         scenes=RUNNING,
         loads=("centre_distance_pitches",),
         sense=Sense.AT_LEAST,
@@ -255,7 +255,7 @@ FAR_SHAFTS = only(_between_shafts)(
         code="CHN112",
         title="maximum centre distance",
         question="Is the centre distance short enough for unsupported strands?",
-        failure="centre distance is too long for unsupported strands",
+        failure="centre distance is too large for unsupported strands",
         scenes=RUNNING,
         loads=("centre_distance_pitches",),
         sense=Sense.AT_MOST,
@@ -274,10 +274,10 @@ FAR_SHAFTS = only(_between_shafts)(
 
 
 def _power_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Rated power of the chain from the maker's chart.
+    """Rated power of the chain from the manufacturer's chart.
 
     **Range** one chain on 19 teeth at the speed of the file.
-    **Error** none: the maker's figure.
+    **Error** none: the manufacturer's figure.
     **Source** rating charts after ISO 10823.
     """
     rated = spec.layout.rated_power if isinstance(spec.layout, TwoShafts) else None

@@ -57,15 +57,15 @@ def _anything(loads: Loads) -> Offsets:
 
 
 def elastic_criterion(spec: ChainDrive, scene: ChainScene) -> Criterion:
-    """Largest stray of the tension from the rigid body's, over the static tension of the same section.
+    """Maximum deviation of the tension from that of the rigid body, relative to the static tension of the same section.
 
         E = max over the chain of a b(s) g/S_static(s)             start
         E = (S_rigid,min - S_low)/S_static,min                     stop
 
-    a b(s) is the bound of a step (`laws.loop_bounds.stray`), g what the profile leaves of it; S_low is the bound of the
-    smallest tension in a stop.
+    a b(s) is the bound for a torque step (`laws.loop_bounds.stray`), g the share that remains with the profile. S_low
+    is the bound of the minimum tension in a stop.
 
-    **Range** any start and any stop; infinite where a section has no static tension.
+    **Range** any start and any stop; infinite if a section has no static tension.
     **Error** an upper bound of the ratio.
     **Source** derived in `laws.loop_bounds`; the threshold of 5 % is an engineering choice.
     """
@@ -75,23 +75,24 @@ def elastic_criterion(spec: ChainDrive, scene: ChainScene) -> Criterion:
         case = stop_case(spec, scene)
         found, least = extremes(spec, case), min(case.line.ends)
         value = (found.smallest - found.lowest) / least if least > 0 else math.inf
-    meaning = "tension the waves of the chain can add, over the static tension"
+    meaning = "maximum tension added by chain waves / static tension"
     return Criterion("E", value, ELASTIC_THRESHOLD, meaning, "laws.loop_bounds")
 
 
 def elastic_bound(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
-    """Interval of every load of the rigid body that holds all waves of the chain.
+    """Interval of every load of the rigid body that contains all waves of the chain.
 
         start: S_static + a r - a b g <= S <= S_static + a r + a b g,   phase by phase
         stop:  S_static + min(0, -a r) - b sum |da| <= S <= S_static + max(0, -a r) + b sum |da|
-               S_ov <= 2 m a with a constant tension at the run-off, a (|r| + b) at either end of a fixed loop
+               S_ov <= 2 m a with a constant leaving tension, a (|r| + b) at either end of a fixed loop
 
     **Range** a taut chain that slides forward, any tail mass and jump of impedance, any internal damping; a take-up
-    without mass. Where the interval reaches below 0 the chain may go slack: then nothing is known, nor along a motor's
-    curve or with a driven tail.
-    **Error** a bound; at the run-on with a constant tension at the run-off and without damping it is attained.
+    without mass. If the interval reaches below 0, the chain may go slack and no bound exists. No bound exists for a
+    start on a motor curve or with a driven tail.
+    **Error** a bound; it is attained at the entering strand with a constant tension of the leaving strand and without
+    damping.
     **Source** derived in `laws.loop_bounds` (completeness of the modes, Cauchy-Schwarz, Dunkerley); a damped mode never
-    strays further than an undamped one.
+    deviates more than an undamped one.
     """
     if not isinstance(scene, Start):
         return _of_stop(spec, scene, loads)
@@ -154,11 +155,11 @@ def _unless_taut(found: Offsets, loads: Loads) -> Offsets:
 
 
 def modes_criterion(spec: ChainDrive, scene: Start) -> Criterion:
-    """Part of the dynamic tension at the run-on that is not in the first mode.
+    """Part of the dynamic tension of the entering strand that is not in the first mode.
 
         n = sum_(k>1) |M_k|/sum M_k
 
-    **Range** any start; infinite where the run-on has no quasi-static tension.
+    **Range** any start; infinite if the entering strand has no quasi-static tension.
     **Error** an upper bound of the part.
     **Source** `chain_resonance.modal_rest`; the threshold of 5 % is an engineering choice.
     """
@@ -166,7 +167,7 @@ def modes_criterion(spec: ChainDrive, scene: Start) -> Criterion:
     rest, _ = _behind_the_first(case)
     whole = abs(float(loop_bounds.quasi_static(case.masses, CARRY, 1.0)))
     value = rest / whole if whole > 0 else math.inf
-    meaning = "part of the start's tension that is in higher modes"
+    meaning = "share of higher modes in the starting tension"
     return Criterion("n", value, MODES_THRESHOLD, meaning, "laws.chain_resonance")
 
 
@@ -184,15 +185,15 @@ applies to any number. More modes narrow it and take longer."""
 
 
 def modes_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
-    """Change of the dynamic tension when all of it is taken to swing in the first mode.
+    """Change of the dynamic tension if the first mode alone is assumed.
 
         |dS| <= a R (g_1 + g_2),   R = sum_(k>1) |M_k|
 
-    g_1 and g_2 bound how far the first mode and those above the second frequency stray from the rigid body's
-    (`start_profile.phases`). With a constant tension at the run-off no mode has another sign: then the peak rises by no
-    more than a R (1 + g_2) less what R has in the peak already.
+    g_1 and g_2 bound the deviation of the first mode and of the modes above the second frequency from the rigid body
+    (`start_profile.phases`). With a constant tension of the leaving strand all modes have the same sign. The peak then
+    rises by at most a R (1 + g_2), less the part of R that the peak contains already.
 
-    **Range** as the waves; a chain that stays taut, with the tensions of its running in it.
+    **Range** as the waves; a taut chain with the tensions of steady running at the start.
     **Error** a bound.
     **Source** sums over modes; derived.
     """
@@ -216,30 +217,30 @@ def modes_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
 
 
 def sticking_criterion(spec: ChainDrive, scene: Start) -> Criterion:
-    """Resistance of a chain without tension over the force that accelerates it.
+    """Ratio of the resistance of a relaxed chain to the accelerating force.
 
-        W/(m a);   0 for a start with the tensions of the running chain in it
+        W/(m a);   0 for a start with the running tensions
 
-    **Range** any start. A chain that starts with its running tensions slides forward from the first moment on.
+    **Range** any start. A chain that starts with its running tensions slides forward from the beginning.
     **Error** exact.
-    **Source** balance of a front of motion; the threshold of 10 % is an engineering choice.
+    **Source** force balance of a moving front; the threshold of 10 % is an engineering choice.
     """
     case = start_case(spec, scene)
     pulled = case.line.moving_mass * case.acceleration
     value = 0.0
     if scene.chain == "relaxed":
         value = abs(case.line.static_resistance) / pulled if pulled > 0 else math.inf
-    return Criterion("W/(m a)", value, STICKING_THRESHOLD, "resistance over the inertia of the chain", "Newton's law")
+    return Criterion("W/(m a)", value, STICKING_THRESHOLD, "resistance / inertia force of the chain", "Newton's law")
 
 
 def sticking_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
-    """Nothing for a chain with its running tensions in it; no bound for a relaxed one.
+    """Zero for a chain with its running tensions; no bound for a relaxed chain.
 
-        the drive winds the chain up before its load breaks loose: no sum of modes holds that
+        the drive tightens the chain before its load breaks away: no superposition of modes describes this
 
     **Range** any start.
-    **Error** exact for the first, none for the second.
-    **Source** two masses, `numerics.two_mass_start`, show how much it can be.
+    **Error** exact for the first case, none for the second.
+    **Source** two masses, `numerics.two_mass_start`, show the possible size.
     """
     return _anything(loads) if scene.chain == "relaxed" else {}
 
@@ -248,13 +249,13 @@ def sticking_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
 
 
 def weight_criterion(spec: ChainDrive, scene: Start) -> Criterion:
-    """How far the inertia of the take-up weight changes the run-off tension.
+    """Influence of the inertia of the take-up weight on the tension of the leaving strand.
 
         max(kappa/0.1, (a_0/g)/0.03),   kappa = M w_1/(4 Z_2),   a_0 = F/m_drive;   0 without `takeup.mass`
 
     a_0 is the acceleration of the drive alone, w_1 the lowest frequency, Z_2 the impedance of the return strand.
 
-    **Range** a gravity take-up; a file that gives no mass asks for a constant tension.
+    **Range** a gravity take-up; without a mass in the file the tension is constant.
     **Error** an estimate.
     **Source** take-up weight on two falls; thresholds are an engineering choice.
     """
@@ -275,17 +276,17 @@ def _weight_numbers(spec: ChainDrive, case: StartCase) -> tuple[float, float]:
 
 
 def weight_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
-    """Change of any tension when the take-up weight is taken without inertia.
+    """Change of any tension if the inertia of the take-up weight is neglected.
 
-        run-on, by its dynamic part:  d = 3 (M a_0/4 + kappa a M_chain)
+        entering tension, by its dynamic part:  d = 3 (M a_0/4 + kappa a M_chain)
         any other:                    d = T_0 (3.4 a_0/(2 g) + kappa)
 
-    The motion is linear, and so is what the weight changes of it in the force that starts it.
+    The motion is linear; the change due to the weight is proportional to the starting force.
 
     **Range** below the threshold; unbounded above.
-    **Error** calibrated: on 431 seeded chains started by a step the change of the run-on tension came to 2.1 of the
-    bracket, to 0.15 in the median; on belts, whose loop is the same, the largest drop of the run-off tension was
-    T_0 3.4 a_0/(2 g) at small kappa.
+    **Error** calibrated: on 431 seeded chains started by a step the change of the entering tension was at most 2.1 of
+    the bracket, 0.15 in the median; on belts, which have the same loop, the maximum drop of the leaving tension was T_0
+    3.4 a_0/(2 g) at small kappa.
     **Source** take-up weight on two falls; coverage samples of belts and chains.
     """
     case = start_case(spec, scene)
@@ -316,17 +317,18 @@ def _unless_slack(spec: ChainDrive, case: StartCase, change: float, loads: Loads
 
 
 def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
-    """Most that the teeth can add to the run-on tension while the speed changes, over the static one.
+    """Upper bound of the tension added to the entering strand by the teeth during a speed change, relative to the
+    static tension.
 
-        P/S_static,   P of `passing.Passing.teeth_bound`;   infinite where the run-on has no tension
+        P/S_static,   P of `passing.Passing.teeth_bound`;   infinite if the entering strand has no tension
 
-    **Range** any start and any range of speeds; infinite with a driven tail and along a motor's curve.
+    **Range** any start and any range of speeds; infinite with a driven tail and on a motor curve.
     **Error** an upper bound.
     **Source** derived in `chain_start.passing_bound`; the threshold of 5 % is an engineering choice.
     """
     static = chain_line(spec, scene).run_on
     value = _teeth(spec, scene) / static if static > 0 else math.inf
-    meaning = "what teeth that pass can add to the tension, over the static one"
+    meaning = "maximum tension added by tooth engagement / static tension"
     return Criterion("P/S", value, TEETH_THRESHOLD, meaning, "laws.chain_start.passing_bound")
 
 
@@ -343,12 +345,12 @@ def _teeth(spec: ChainDrive, scene: Start | SpeedRange) -> float:
 
 
 def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Offsets:
-    """Change of any tension of a start by its teeth, and all there is in a range of speeds.
+    """Change of any tension of a start due to the teeth, and the total dynamic tension of a speed sweep.
 
         start: |dS| <= P      range of speeds: 0 <= S <= P + m |e| R
 
-    **Range** a taut chain, its sprocket turned by a speed that only rises or only falls; unbounded with a driven tail
-    and along a motor's curve.
+    **Range** a taut chain and a sprocket speed that only rises or only falls; unbounded with a driven tail and on a
+    motor curve.
     **Error** a bound; see `chain_start.passing_bound`.
     **Source** variation of the input of every mode, derived.
     """

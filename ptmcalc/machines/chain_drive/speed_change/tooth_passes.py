@@ -61,12 +61,12 @@ def range_loads(spec: ChainDrive, scene: SpeedRange, dynamic: Estimate) -> dict[
 
 
 def range_notes(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], level: int) -> Result:
-    """Polygon force by the textbook at the fastest speed of a range.
+    """Textbook polygon force at the highest speed of a range.
 
         S_D = 3 m a_max,   m = (m_G + lambda m_K) L
 
-    **Range** teeth far slower than the first natural frequency.
-    **Error** no bound: see `polygon.textbook_polygon_force`; it knows no resonance on the way.
+    **Range** tooth frequencies far below the first natural frequency.
+    **Error** no bound: see `polygon.textbook_polygon_force`; it contains no resonance of the range.
     **Source** lecture notes Kramatorsk 2007.
     """
     line = chain_line(spec, scene)
@@ -197,16 +197,16 @@ def _by_the_driven(spec: ChainDrive, passing: Passing, sections: Sections) -> Fl
 
 
 def through(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], level: int) -> Result:
-    """Dynamic tension while a range of speeds is passed through, resonances and all.
+    """Dynamic tension during a speed sweep, resonances included.
 
         S = sum M_k x_k,   x_k'' + 2 zeta_k w_k x_k' + w_k^2 x_k = w_k^2 a + 2 zeta_k w_k a'
         a = e R cos(phi) - w^2 R sin(phi)
 
-    Every pass of a tooth has its own map of the state, so that no resonance is too slow or too sharp.
+    Every tooth engagement has its own state transition, so that slow and sharp resonances are resolved.
 
-    **Range** a sprocket whose speed changes evenly, whatever the chain does; modes at rest at the beginning of the
-    range; in a loop of fixed length the damping of the stretch by the teeth is left out.
-    **Error** told: quadrature, modes left out, and where the joints stand at the beginning.
+    **Range** a sprocket with a linear speed change that the chain does not influence; modes at standstill at the
+    beginning of the range; in a loop of fixed length the damping of the elongation by the teeth is neglected.
+    **Error** bounded: quadrature, neglected modes, and the initial positions of the link joints.
     **Source** derived in `numerics.run_through`; kinematics of the polygon.
     """
     found = _passed(spec, range_passing(spec, scene, _MODES << level), (), level)
@@ -219,16 +219,16 @@ def through(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], level:
 
 
 def started(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Dynamic run-on tension of a start with its teeth: the mean acceleration and the polygon in one run.
+    """Dynamic entering tension of a start with mean acceleration and polygon effect in one run.
 
         S(s) = sum B_k(s) x_k,   x_k follows A_k a_rigid + B_k(on) a_on - B_k(off) a_off
         a_on = e R cos(phi) - w^2 R sin(phi) - a_rigid
 
-    Teeth act between the chain and its drive: a light drive gives way to them. With a screw take-up those of the
-    run-off act too, and the difference of both stretches the loop.
+    The teeth act between the chain and its drive: a light drive yields to them. With a screw take-up the teeth of the
+    leaving strand act too, and the difference of both elongates the loop.
 
     **Range** a speed or a torque over time, with the angle of the sprocket that of the rigid body.
-    **Error** told as in `through`.
+    **Error** bounded as in `through`.
     **Source** derived in `numerics.run_through`.
     """
     case, passing = start_case(spec, scene), start_passing(spec, scene, _MODES << level)
@@ -320,7 +320,7 @@ def start_valid(spec: ChainDrive, scene: Start) -> Criterion:
     case = start_case(spec, scene)
     unknown = case.follows_curve or not case.moves
     count = float(has_driven_tail(spec)) + float(unknown)
-    return Criterion("n", count, 1.0, "driven tails, motors' curves: none", "count")
+    return Criterion("n", count, 1.0, "driven tails, motor curves: none", "count")
 
 
 RANGE_NOTES: Solver[ChainDrive, SpeedRange] = Solver(

@@ -22,12 +22,13 @@ A larger value takes longer; a smaller one may omit the peak."""
 
 
 def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Largest run-on tension when a drive winds up a chain without tension until its load breaks loose.
+    """Maximum entering tension when a drive tightens a relaxed chain until its load breaks away.
 
         S = S_off + K x,   K = w_1^2 m M/(m + M),   M sticks as long as K x <= W
 
-    **Range** a torque over time; a constant tension at the run-off; all resistance as friction of the load.
-    **Error** exact for two masses; none bound against a chain with its mass along it.
+    **Range** a torque over time; a constant tension of the leaving strand; the whole resistance as friction of the
+    load.
+    **Error** exact for two masses; no bound relative to a chain with distributed mass.
     **Source** derived in `numerics.two_mass_start`; the step in closed form is `laws.two_mass.takeup`.
     """
     case = start_case(spec, scene)
@@ -61,7 +62,7 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     """
     case = start_case(spec, scene)
     count = sum(_hindrances(scene, case))
-    return Criterion("n", float(count), 1.0, "what two masses and a spring do not have: nothing of it", "count")
+    return Criterion("n", float(count), 1.0, "features outside the two-mass model: none", "count")
 
 
 def _hindrances(scene: Start, case: StartCase) -> tuple[bool, ...]:

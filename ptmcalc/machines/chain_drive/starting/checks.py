@@ -44,7 +44,7 @@ def _profile_repair(spec: ChainDrive, scene: Start) -> KeyPath:
 
 
 def _reserve_limit(spec: ChainDrive, scene: Start) -> Estimate:
-    """1: the drive moves the chain.
+    """1: the drive just moves the chain.
 
     **Range** any start.
     **Error** none.
@@ -77,7 +77,7 @@ WEAK: Check[ChainDrive, Start] = Check(
 
 
 def _time_limit(spec: ChainDrive, scene: Start) -> Estimate:
-    """Longest start of the file.
+    """Maximum starting time given in the file.
 
     **Range** starts with a limit.
     **Error** none: a chosen limit.
@@ -114,11 +114,11 @@ SLOW: Check[ChainDrive, Start] = Check(
 
 
 def _safety_limit(spec: ChainDrive, scene: Start) -> Estimate:
-    """Breaking load over the largest tension of a start or a stop, of the file or 5.
+    """Required ratio of breaking load to maximum tension of a start or a stop, from the file or 5.
 
-    **Range** starts and stops, which are rare against the passes of a tooth.
+    **Range** starts and stops, which are rare compared with tooth engagements.
     **Error** none: a chosen limit.
-    **Source** makers of conveyor chains: 5 and more for short peaks; handbooks differ.
+    **Source** manufacturers of conveyor chains: 5 and more for short peaks; handbooks differ.
     """
     return Estimate.exact(spec.checks.safety_start)
 
@@ -141,7 +141,7 @@ STRENGTH: Check[ChainDrive, Start] = Check(
     why="The start of a full conveyor after a jam is the highest load in the life of the chain. A torque step produces"
     " twice the force of the rigid body.",
     formula="F_B/(c (S_static + S_dyn,max + m_K V^2)) >= limit",
-    source="makers of conveyor chains; the dynamic part derived in ptmcalc.numerics.mode_sum",
+    source="manufacturers of conveyor chains; the dynamic part derived in ptmcalc.numerics.mode_sum",
 )
 
 
@@ -161,11 +161,11 @@ def _hard_start(spec: ChainDrive, scene: Start) -> KeyPath:
 
 
 def _slack_limit(spec: ChainDrive, scene: Start) -> Estimate:
-    """0: a chain never pushes.
+    """0: a chain carries no compression.
 
     **Range** any section of both strands.
     **Error** none.
-    **Source** a chain has no stiffness against pressure.
+    **Source** a chain has no stiffness in compression.
     """
     return Estimate.exact(0.0)
 

@@ -29,12 +29,12 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
         m a + W = e (M i/R - J (i/R)^2 a),   e = eta or 1/eta by the direction of the power
         J_red = J + m (R/i)^2/e,   t = (J_red/(M - W R/(e i))) w,   S = S_static + a r
 
-    m holds chain, load, tail and sprocket, R = z p/(2 pi), r is the mass the run-on pulls (gravity take-up) or that
-    less its mean over the loop (screw take-up). An imposed speed gives a = V q'_max.
+    m includes chain, load, tail and sprocket; R = z p/(2 pi). r is the mass accelerated by the entering strand (gravity
+    take-up), or this mass less its mean over the loop (screw take-up). For an imposed speed a = V q'_max.
 
-    **Range** any start; the losses of the gear as on the plateau of the torque.
-    **Error** no bar of its own but for a motor's curve, whose quadrature tells it; what waves and teeth add is in the
-    bounds of those effects.
+    **Range** any start; the gear losses are those at full torque.
+    **Error** no error bar of its own except the quadrature error on a motor curve; the bounds of the effects cover
+    waves and teeth.
     **Source** Newton's law; lecture notes Kramatorsk 2007 with the efficiency in the direction of the power.
     """
     case = start_case(spec, scene)
@@ -129,13 +129,14 @@ RIGID_START: Solver[ChainDrive, Start] = Solver(
 
 
 def notes(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Start by the textbook.
+    """Textbook start.
 
         J_pr = J + m R^2/(i^2 eta),   eps = (M_p - M_s)/J_pr,   t = J_pr w/(M_p - M_s),   S = S_C + m eps R/i
         M_s = W R/(i eta)
 
-    **Range** a torque; R is the radius through the pins, as the textbook has it, not z p/(2 pi).
-    **Error** no bound: the rigid-body part, the swing of an elastic chain left out; eta always as if the motor drives.
+    **Range** a torque; R is the radius through the pins, as in the textbook, not z p/(2 pi).
+    **Error** no bound: rigid body only, the oscillation of the elastic chain is neglected; eta always as for a driving
+    motor.
     **Source** lecture notes Kramatorsk 2007.
     """
     case = start_case(spec, scene)

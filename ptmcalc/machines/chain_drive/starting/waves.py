@@ -59,15 +59,15 @@ def _require_motion(case: StartCase) -> None:
 
 
 def one_mode(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Dynamic run-on tension of two masses on a spring: the drive, and all it pulls.
+    """Dynamic entering tension of two masses on a spring: the drive and all masses that it moves.
 
         x'' + 2 zeta w x' + w^2 x = w^2 q + 2 zeta w q',   S = a r x,   w the first natural frequency of the chain
 
-    The spring is that with which both masses have the first frequency of the chain, its damper the damping of that
-    mode; of an imposed speed the drive has no end. Closed form between the kinks of the profile.
+    The spring stiffness gives both masses the first natural frequency of the chain; the damper has the damping of that
+    mode. For an imposed speed the drive mass is infinite. Closed form between the kinks of the profile.
 
-    **Range** a taut chain that slides forward; a constant tension or a fixed length at the run-off.
-    **Error** what samples miss; what the higher modes do differently is the bound of that effect.
+    **Range** a taut chain that slides forward; a constant tension of the leaving strand or a loop of fixed length.
+    **Error** sampling error; the bound of the effect `higher_modes` covers the higher modes.
     **Source** reduced system of two masses; derived in `numerics.mode_sum`.
     """
     case = start_case(spec, scene)
@@ -148,15 +148,15 @@ def _samples(case: StartCase, count: int) -> float:
 
 
 def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Tensions of a start from many modes of both strands: what waves and their echoes come to.
+    """Tensions of a start by superposition of many modes of both strands, equivalent to waves and their echoes.
 
         S(s) = a (r(s) q + sum M_k(s) (x_k - q))
 
-    M_k(s) are the parts of the modes (`chain_resonance.modal_tensions`), internal damping that of the file at each of
-    their frequencies. The run-on takes more modes than the sections along both strands.
+    M_k(s) are the parts of the modes (`chain_resonance.modal_tensions`), with the internal damping of the file at each
+    frequency. The entering strand uses more modes than the sections along both strands.
 
     **Range** a taut chain that slides forward; hysteretic and Zener damping by the ratio of each mode.
-    **Error** told: what samples, sections and the modes left out can miss, all by bounds.
+    **Error** bounded: samples, sections and neglected modes.
     **Source** sums over modes, derived in `numerics.mode_sum` and `chain_resonance`; equal to d'Alembert's waves with
     all of them.
     """
@@ -348,7 +348,7 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     case = start_case(spec, scene)
     own = getattr(spec.layout, "tail", None)
     count = (not case.moves) + case.follows_curve + (own is not None and own.driven == "on")
-    meaning = "too weak a drive, a motor's curve, a driven tail: none of them"
+    meaning = "insufficient drive force, motor curve, driven tail: none of them"
     return Criterion("n", float(count), 1.0, meaning, "count")
 
 

@@ -61,7 +61,7 @@ def _way_key(spec: ChainDrive, scene: Stopping) -> KeyPath:
 
 
 def _way_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
-    """Longest way of the file, by the kind of stop.
+    """Permissible stopping distance given in the file for the type of stop.
 
     **Range** a stop or an emergency stop with a limit.
     **Error** none: a chosen limit.
@@ -96,9 +96,9 @@ WAY: Check[ChainDrive, Stopping] = Check(
 
 
 def _time_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
-    """Longest time of any stop of the file; an hour without one: then it never stops.
+    """Permissible stopping time given in the file; one hour without it, after which the chain counts as not stopping.
 
-    **Range** any stop; a run-out where the file gives the limit, or where the chain runs away.
+    **Range** any stop; a coasting stop if the file gives the limit or the chain runs away.
     **Error** none: a chosen limit.
     **Source** the plant's rules.
     """
@@ -139,9 +139,9 @@ def _torque_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
 
         M = M_brake,   M_brake/i on the sprocket shaft
 
-    **Range** a brake at full torque; delay and rise are in the way (CHN124), not here.
-    **Error** none for a brake on the motor shaft; on the sprocket shaft the losses between are left out.
-    **Source** the maker's data.
+    **Range** a brake at full torque; the stopping distance (CHN124) includes delay and rise.
+    **Error** none for a brake on the motor shaft; on the sprocket shaft the gear losses are neglected.
+    **Source** the manufacturer's data.
     """
     brake = acting_brake(spec, scene)
     if brake is None:
@@ -172,11 +172,11 @@ TORQUE: Check[ChainDrive, Stopping] = Check(
 
 
 def _slack_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
-    """0: a chain never pushes.
+    """0: a chain carries no compression.
 
     **Range** any section of both strands.
     **Error** none.
-    **Source** a chain has no stiffness against pressure.
+    **Source** a chain has no stiffness in compression.
     """
     return Estimate.exact(0.0)
 
@@ -211,11 +211,11 @@ SLACK: Check[ChainDrive, Stopping] = Check(
 
 
 def _safety_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
-    """Breaking load over the largest tension of a stop or a change of speed, of the file or 5.
+    """Required ratio of breaking load to maximum tension of a stop or a speed change, from the file or 5.
 
-    **Range** stops and changes of speed, which are rare against the passes of a tooth.
+    **Range** stops and speed changes, which are rare compared with tooth engagements.
     **Error** none: a chosen limit.
-    **Source** makers of conveyor chains: 5 and more for short peaks; handbooks differ.
+    **Source** manufacturers of conveyor chains: 5 and more for short peaks; handbooks differ.
     """
     return Estimate.exact(spec.checks.safety_start)
 
@@ -238,19 +238,19 @@ STRENGTH: Check[ChainDrive, ChainScene] = Check(
     why="A brake at the upper end of a descent stops the whole load through the strand below it. Teeth that pass at a"
     " natural frequency excite large chain oscillations within a few revolutions.",
     formula="F_B/(c (S_static + S_dyn,max + m_K V^2)) >= limit",
-    source="makers of conveyor chains; tensions derived in ptmcalc.numerics.mode_sum and run_through",
+    source="manufacturers of conveyor chains; tensions derived in ptmcalc.numerics.mode_sum and run_through",
 )
 
 # -- standstill -----------------------------------------------------------------------------------------------------
 
 
 def _hold_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
-    """Torque that the backstop and the closed brake hold on the sprocket shaft, with the reserve of a backstop.
+    """Holding torque of backstop and closed brake on the sprocket shaft, divided by the reserve of the backstop.
 
         (M_backstop + M_brake i)/reserve,   i = 1 for a brake on the sprocket shaft
 
-    **Range** a chain at rest with its drive off: its brake is closed then.
-    **Error** none: a chosen reserve; the losses of the gear, which help to hold, are left out.
+    **Range** a chain at standstill with the drive off and the brake closed.
+    **Error** none: a chosen reserve; the gear losses, which help to hold, are neglected.
     **Source** practice: reserve 1.25 to 1.75.
     """
     return held_torque(spec.backstop, _closed(spec))

@@ -52,16 +52,17 @@ OF_STOP = frozenset({"tension_min", "safety_start", "tension_overload_braking"})
 
 
 def run(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) -> Result:
-    """Way, time, brake torque and tensions of a stop of the rigid chain.
+    """Stopping distance, stopping time, brake torque and tensions of the rigid chain.
 
         a = (M_b + W' R e/i)/(m R e/i + J i/R),   W' = W + M_b,sprocket/R,   e = eta or 1/eta by the power in the gear
         M_T = F_b R e/i + J a i/R,  F_b = m a - W,  a = v^2/(2 s);   S_ov = m a
 
-    m holds chain, load, tail and sprocket; W is the lowest resistance there can be. The torque of the brake rises
-    straight after its delay. What braking adds is taken at the way the file allows, or else at the brake's own torque.
+    m includes chain, load, tail and sprocket; W is the lowest possible resistance. The brake torque rises linearly
+    after its delay. The tension added by braking is that of the permissible stopping distance, or that of the given
+    brake torque.
 
-    **Range** any stop; infinite where nothing stops it.
-    **Error** none of its own; what waves add to the tensions is the bound of that effect.
+    **Range** any stop; infinite if nothing stops the motion.
+    **Error** none of its own; the bound of the wave effect covers the tensions added by waves.
     **Source** lecture notes Kramatorsk 2007 in the signed form (`laws.stopping`).
     """
     case = stop_case(spec, scene)
@@ -117,15 +118,17 @@ def _identified(spec: ChainDrive, scene: Coast, line: ChainLine, way: float) -> 
 
 
 def waves(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) -> Result:
-    """Tensions of a stop from many modes of both strands, from the moment the motors let go to rest.
+    """Tensions of a stop by superposition of many modes of both strands, from the switch-off of the motors to
+    standstill.
 
         S(s) = S_static(s) + a (r(s) q + sum M_k(s) (x_k - q)),   q = -a(t)/a
 
-    The drive is felt lighter where it drives the chain on than where a brake holds it: both are computed, and the bar
-    holds both.
+    The reduced drive mass depends on the direction of power in the gear: both directions are computed, and the error
+    bar contains both.
 
-    **Range** a taut chain that slides forward until it rests, in 1000 periods of its lowest mode; teeth left out.
-    **Error** told: samples, sections, modes left out, the direction of the gear's losses.
+    **Range** a taut chain that slides forward until standstill, within 1000 periods of its lowest mode; teeth
+    neglected.
+    **Error** bounded: samples, sections, neglected modes, direction of the gear losses.
     **Source** sums over modes, derived in `numerics.mode_sum` and `chain_resonance`.
     """
     case = stop_case(spec, scene)
@@ -190,7 +193,7 @@ def waves_valid(spec: ChainDrive, scene: Stopping) -> Criterion:
     else:
         time, _ = stop_case(spec, scene).rest()
         value = math.inf if math.isinf(time) else time * float(natural_frequencies(spec, scene)[0]) / (2e3 * math.pi)
-    return Criterion("n", value, 1.0, "swings of the chain before it rests, in thousands", "count")
+    return Criterion("n", value, 1.0, "oscillations of the chain before standstill, in thousands", "count")
 
 
 def _waves_cost(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) -> float:
@@ -203,12 +206,12 @@ def _waves_cost(spec: ChainDrive, scene: Stopping, carried: frozenset[str], leve
 
 
 def notes(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) -> Result:
-    """Stop by the textbook: the brake for the allowed way, what it adds to the tension, the free run-out.
+    """Textbook stop: brake torque for the permissible distance, tension added by braking, coasting distance.
 
         M_T = (|W| + m v^2/(2 s)) R eta/i + J a i/R,   S_ov = m v^2/(2 s),   s = m v^2/(2 W)
 
-    **Range** the lowest resistance of the file; R through the pins; the run-out without the motors.
-    **Error** none bound: uphill it adds the resistance to what the brake must do instead of crediting it.
+    **Range** the lowest resistance of the file; R through the pins; coasting without the motors.
+    **Error** no bound: uphill the formula adds the resistance to the brake force instead of subtracting it.
     **Source** lecture notes Kramatorsk 2007, M, M_st and M_T in turn.
     """
     case = stop_case(spec, scene)
@@ -232,13 +235,13 @@ def notes(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int
 
 
 def hold(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: int) -> Result:
-    """Torque on the sprocket shaft with which a stopped, loaded conveyor wants to run back.
+    """Rollback torque of a stopped, loaded conveyor on the sprocket shaft.
 
         M = (q_G H g - W_friction) R,   not below 0
 
-    **Range** standstill, the whole working strand loaded or empty as the scene says, friction at its lowest; not the
-    blow of a backstop that engages with play.
-    **Error** exact but for the coefficient.
+    **Range** standstill, the whole working strand loaded or empty as in the scene, minimum friction; without the impact
+    of a backstop that engages with backlash.
+    **Error** exact except for the friction coefficient.
     **Source** lecture notes Kramatorsk 2007.
     """
     line = chain_line(spec, Hold(load=scene.load), stop_factor(spec))

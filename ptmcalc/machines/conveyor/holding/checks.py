@@ -18,7 +18,7 @@ from ptmcalc.machines.conveyor.spec import (
 
 
 def _backstop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Torque that backstop and closed brakes hold at the head pulley, with the reserve of a backstop.
+    """Holding torque of backstop and closed brakes at the head pulley, divided by the reserve of the backstop.
 
         M = (M_backstop + sum F_brake R)/reserve
 
@@ -49,5 +49,5 @@ BACKSTOP = rollback_check(
     what="Idler resistance, backstop and closed brakes hold the force of the load on the stopped belt. The rollback"
     " torque is at most the torque of backstop and brakes, divided by the reserve.",
     why="A belt that rolls back buries its tail and drives the motors backward.",
-    formula="(climb of the load - idler friction at rest) D/2 <= (M_backstop + M_brakes)/reserve",
+    formula="(slope resistance of the load - idler friction at standstill) D/2 <= (M_backstop + M_brakes)/reserve",
 )

@@ -25,15 +25,15 @@ from ptmcalc.machines.conveyor.spec import (
 
 
 def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
-    """Torque on the head's drum shaft with which the stopped belt wants to run back.
+    """Rollback torque of the stopped belt on the head pulley shaft.
 
         M = (H - r W_idlers) D/2,  not below 0;   r = `rest_factor`
 
-    Only climbing sections are loaded (the worst part). Of the resistance only that of the idlers counts at standstill:
-    loading points, skirt plates and cleaners do not act for certain.
+    Only rising sections are loaded (worst case). Only the idler resistance counts at standstill: resistance of loading
+    points, skirt plates and cleaners is not guaranteed.
 
-    **Range** standstill; not the blow of a backstop that engages with play.
-    **Error** exact but for the coefficient.
+    **Range** standstill; without the impact of a backstop that engages with backlash.
+    **Error** exact except for the friction coefficient.
     **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
     """
     force = max(

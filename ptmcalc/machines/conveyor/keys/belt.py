@@ -46,11 +46,11 @@ class Belt(Fragment):
     strength: Annotated[PositiveLineForce | None, Checked()] = None
     """rated strength per width, e.g. `1600 N/mm` for an ST 1600"""
     carcass: Literal["textile", "steel_cord"] | None = None
-    """what carries the tension; chooses the default safety factors"""
+    """carcass type; determines the default safety factors"""
     damping: Damping | None = None
-    """internal damping; an elastic belt when left out, which swings longest"""
+    """internal damping; an undamped belt when left out, with the longest oscillation"""
     minimum_drum_diameter: Annotated[PositiveLength | None, Limit(), Also("minimum_pulley_diameter")] = None
-    """smallest drive drum the maker of the belt allows; or give `carcass_thickness` and `warp`"""
+    """minimum drive pulley diameter of the belt manufacturer; or give `carcass_thickness` and `warp`"""
     carcass_thickness: Annotated[PositiveLength | None, Limit()] = None
     """of the plies without the covers, or of the cords of a steel-cord belt"""
     warp: Literal["cotton", "polyamide", "polyester", "aramid", "steel_cord"] | None = None
@@ -66,7 +66,7 @@ class Belt(Fragment):
             yield given.missing("width", f"{per_width} per width: `width` is missing")
         yield from at_most_one(given, "minimum_drum_diameter", "carcass_thickness")
         yield from together(
-            given, "carcass_thickness", "warp", "the minimum pulley diameter depends on the material too"
+            given, "carcass_thickness", "warp", "the minimum pulley diameter also depends on the material"
         )
         carcass, warp = given.word("carcass"), given.word("warp")
         if carcass is not None and warp is not None and (carcass == "steel_cord") != (warp == "steel_cord"):
@@ -78,9 +78,9 @@ class IdlerRow(Fragment):
     """The idlers of one strand."""
 
     pitch: Annotated[
-        PositiveLength | None, Absent("sag is `not checked`, and waves are those of a taut belt, the stiffest")
+        PositiveLength | None, Absent("sag is `not checked`, and the wave speed is that of a taut belt without sag")
     ] = None
-    """distance of the idler sets; needed for sag and with `set_mass`"""
+    """idler spacing; needed for sag and with `set_mass`"""
     set_mass: Annotated[Mass | None, OneOf("line_mass")] = None
     """rotating mass of one idler set, reduced to the roll surface"""
     line_mass: Annotated[LineMass | None, OneOf("set_mass")] = None
@@ -107,40 +107,40 @@ class IdlerRow(Fragment):
 
 
 class Trough(Fragment):
-    """The trough of the carry strand, on three rolls or on two."""
+    """The trough of the carrying strand, on three rolls or on two."""
 
     angle: TroughAngle
-    """of the wing rolls to the level"""
+    """troughing angle of the wing rolls"""
     middle_roll: Length
-    """length of the middle roll; 0 mm for two rolls"""
+    """length of the centre roll; 0 mm for two rolls"""
 
 
 class CarryRow(IdlerRow):
-    """The idlers of the carry strand."""
+    """The idlers of the carrying strand."""
 
     trough: Trough | None = None
-    """its shape; needed for the cross-section of the load, transitions and the edges in vertical curves"""
+    """trough shape; needed for the load cross-section, transitions and edge tension in vertical curves"""
 
 
 class Idlers(Fragment):
     """Idlers of both strands."""
 
     carry: CarryRow
-    """under the carry strand"""
+    """under the carrying strand"""
     back: IdlerRow = Field(alias="return")
     """under the return strand"""
 
 
 class Load(Fragment):
-    """What is conveyed."""
+    """The conveyed material."""
 
     mass: Annotated[PositiveLineMass | None, OneOf("capacity")] = None
-    """load per length of the carry strand, or give `capacity`"""
+    """load per length of the carrying strand, or give `capacity`"""
     capacity: Annotated[MassFlow | None, OneOf("mass")] = None
     """mass flow; the load per length is capacity over belt speed"""
-    density: Annotated[PositiveDensity | None, Absent("the check of the cross-section needs it and does not apply")] = (
-        None
-    )
+    density: Annotated[
+        PositiveDensity | None, Absent("the check of the cross-section requires it and is not applied")
+    ] = None
     """bulk density; with it the cross-section of the load is checked"""
     surcharge_angle: Annotated[SurchargeAngle | None, Assumed()] = None
     """slope of the moving material at the edges of its bed; 15 deg is assumed when it is left out"""
@@ -150,7 +150,7 @@ class Load(Fragment):
         """The load is given in one way."""
         yield from exactly_one(given, "mass", "capacity")
         if "surcharge_angle" in given and "density" not in given:
-            reason = "the cross-section is compared with the stream: `density` is missing"
+            reason = "the capacity of the cross-section is checked: `density` is missing"
             yield Conflict((), reason, "add `density: 1600 kg/m^3`")
 
 
@@ -158,15 +158,17 @@ class Transition(Fragment):
     """The distance between a pulley and the first full trough."""
 
     length: PositiveSpan
-    """from the drum's axis to the first full trough"""
-    pulley_lift: Annotated[Length, Absent("a pulley at the height of the middle roll strains the edges most")] = 0.0
-    """height of the drum's face over the middle roll; a third of the trough's depth is usual"""
+    """from the pulley axis to the first full trough"""
+    pulley_lift: Annotated[
+        Length, Absent("the edge strain is largest for a pulley at the height of the centre roll")
+    ] = 0.0
+    """height of the pulley surface above the centre roll; a third of the trough depth is usual"""
 
 
 class Transitions(Fragment):
-    """Where the trough of the carry strand opens."""
+    """Transitions of the carrying strand from trough to flat belt."""
 
     head: Transition | None = None
-    """before the head drum"""
+    """before the head pulley"""
     tail: Transition | None = None
-    """behind the tail drum"""
+    """after the tail pulley"""

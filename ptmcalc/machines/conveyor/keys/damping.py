@@ -10,23 +10,23 @@ from ptmcalc.spec.optional import Absent
 
 
 class Damping(Fragment):
-    """How the rubber damps: Kelvin-Voigt, S = EA (e + t e'), or Zener, stiffer by a factor for short times."""
+    """Damping of the belt: Kelvin-Voigt, S = EA (e + t e'), or Zener, stiffer by a factor for short times."""
 
     model: Literal["kelvin_voigt", "zener"]
-    """`kelvin_voigt` damps the more the faster the change, `zener` only changes about as fast as its relaxation"""
+    """`kelvin_voigt`: increases with frequency; `zener`: maximum near its relaxation frequency"""
     time: PositiveTime
     """retardation time of a Kelvin-Voigt belt (10 to 50 ms), relaxation time of a Zener belt"""
     stiffening: Annotated[
         PositiveRatio | None, Absent("a Kelvin-Voigt belt has one stiffness; a Zener belt requires it")
     ] = None
-    """Zener: stiffness for sudden changes over that for slow ones, less 1"""
+    """Zener: stiffness for rapid changes / stiffness for slow changes - 1"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Only a Zener belt has a second stiffness."""
         model = given.word("model")
         if model == "zener" and "stiffening" not in given:
-            yield given.missing("stiffening", "a Zener belt is stiffer for sudden changes")
+            yield given.missing("stiffening", "a Zener belt is stiffer under rapid changes")
         elif model == "kelvin_voigt" and "stiffening" in given:
             reason = "a Kelvin-Voigt belt has one stiffness"
             yield Conflict(("stiffening",), reason, "delete `stiffening`, or write `model: zener`")

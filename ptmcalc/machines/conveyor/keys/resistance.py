@@ -49,32 +49,32 @@ class Scraper(Fragment):
 
 
 class Loading(Fragment):
-    """Material that the belt brings to its speed."""
+    """Acceleration of the material to belt speed."""
 
-    speed: Annotated[SignedSpeed, Absent("material without speed along the belt takes the most force")] = 0.0
-    """of the material along the belt when it falls on"""
+    speed: Annotated[SignedSpeed, Absent("material without speed along the belt requires the largest force")] = 0.0
+    """speed component of the material along the belt at loading"""
 
 
 class ExtraForce(Fragment):
     """A special resistance: skirt plates, belt scrapers, a loading point, a tripper."""
 
     force: Annotated[PositiveForce | None, OneOf("skirt, scraper, loading")] = None
-    """against the motion; or what it follows from: `skirt`, `scraper` or `loading`"""
+    """force against the motion; or one of `skirt`, `scraper`, `loading`"""
     skirt: Skirt | None = None
     """friction of the load at skirt plates"""
     scraper: Scraper | None = None
     """friction of belt scrapers"""
     loading: Loading | None = None
-    """force that brings the material to the speed of the belt; the factor C has it already"""
+    """force that accelerates the material to belt speed; already included in the factor C"""
     at: Literal["tail", "carry", "return"] = "tail"
-    """where it acts: at the loading point by the tail, or uniformly along a strand"""
+    """position: at the loading point near the tail, or uniformly along a strand"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """A force is given, or follows from one thing; nothing is conveyed on the return strand."""
         yield from exactly_one(given, "force", "skirt", "scraper", "loading")
         if given.word("at") == "return" and (of_stream := [key for key in _OF_THE_STREAM if key in given]):
-            reason = f"nothing is conveyed on the return strand, where `{of_stream[0]}` could act"
+            reason = f"the return strand carries no material on which `{of_stream[0]}` could act"
             yield Conflict(("at",), reason, "write `at: tail`, or `at: carry`")
 
 
@@ -85,7 +85,7 @@ class Cema(Fragment):
     """The historical CEMA method: L K_t (K_x + K_y w_B + 0.015 w_B) + w_M (L K_y + H) + forces."""
 
     idler_drag: Annotated[PositiveForce | None, OneOf("roll")] = None
-    """A_i, drag of one carry set; or give `roll`"""
+    """A_i, drag of one carrying idler set; or give `roll`"""
     roll: Literal["4in", "5in", "6in", "7in"] | None = None
     """roll diameter, from which A_i follows: 2.3, 1.8, 1.5 or 2.4 lbf"""
     flexure: Annotated[PositiveRatio | None, Assumed()] = None
@@ -105,21 +105,21 @@ class Resistance(Fragment):
     coefficient: Annotated[PositiveRatio | None, Assumed()] = None
     """fictitious friction coefficient f of the whole conveyor; 0.020 is assumed when it is left out"""
     secondary: Annotated[FactorFromOne | None, Assumed()] = None
-    """length factor C: all resistances over the main ones; from the table C(L) when left out, from 80 m on"""
+    """length factor C: all resistances / main resistances; default: table C(L), from 80 m"""
     secondary_force: Annotated[Force | None, OneOf("secondary")] = None
     """secondary resistances as a force at the loading point, instead of `secondary`"""
     cema: Cema | None = None
     """the CEMA method, instead of `coefficient` and `secondary`; pulleys and loading go to `secondary_force`"""
-    speed_share: Annotated[Fraction, Absent("the resistance does not depend on the speed, as ISO 5048 takes it")] = 0.0
-    """part of the idlers' resistance at rated speed that is proportional to the speed"""
+    speed_share: Annotated[Fraction, Absent("the resistance is independent of the speed, as in ISO 5048")] = 0.0
+    """speed-proportional part of the idler resistance at rated speed"""
     forces: dict[str, ExtraForce] = Field(default_factory=dict, max_length=50)
     """special resistances by name, in addition to main and secondary ones"""
     start_factor: Annotated[FactorFromOne | None, Assumed()] = None
-    """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
+    """resistance at the start / resistance in motion; 1.2 is assumed when it is left out"""
     stop_factor: Annotated[PositiveRatio | None, Assumed()] = None
     """resistance during a stop relative to the resistance in motion; 1 is assumed, down to 0.6 of it"""
     rest_factor: Annotated[PositiveRatio | None, Assumed()] = None
-    """idler resistance that holds the belt at standstill, relative to that in motion; one half is assumed"""
+    """idler resistance at standstill / idler resistance in motion; 0.5 is assumed when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -127,11 +127,11 @@ class Resistance(Fragment):
         yield from at_most_one(given, "secondary", "secondary_force")
         for key in ("coefficient", "secondary"):
             if "cema" in given and key in given:
-                reason = "it belongs to ISO 5048 and DIN 22101, `cema` is another method: results of both are not mixed"
+                reason = "it is a key of ISO 5048 and DIN 22101; `cema` is another method, and the two are not combined"
                 yield Conflict((key,), reason, f"delete `{key}`, or `cema`")
         if "secondary_force" in given or "cema" in given:
             return
         for name, force in given.raw.get("forces", {}).items() if isinstance(given.raw.get("forces"), dict) else ():
             if isinstance(force, dict) and "loading" in force:
-                reason = "the length factor C holds the resistance at the loading point already"
-                yield Conflict(("forces", name, "loading"), reason, "give `secondary_force` for all that C stands for")
+                reason = "the length factor C already includes the resistance at the loading point"
+                yield Conflict(("forces", name, "loading"), reason, "give `secondary_force` instead of C")

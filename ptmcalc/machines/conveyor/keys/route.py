@@ -20,13 +20,13 @@ class Section(Fragment):
     length: PositiveSpan
     """along the belt"""
     lift: Annotated[SignedSpan, Absent("a section without a lift is level")] = 0.0
-    """height the load is raised by; negative when it is lowered"""
+    """lifting height of the load; negative when it is lowered"""
     carry_pitch: Annotated[PositiveLength | None, OneOf("idlers.carry.pitch")] = None
-    """idler pitch of the carry strand there, instead of that of `idlers.carry`"""
+    """carrying idler pitch of the section, instead of that of `idlers.carry`"""
     curve_radius: Annotated[
-        PositiveSpan | None, Absent("no curve is described: lift-off and edges there are not checked")
+        PositiveSpan | None, Absent("no curve is described: its lift-off and edge tension are not checked")
     ] = None
-    """radius of the vertical curve that leads from the section before into this one"""
+    """radius of the vertical curve between the section before and this one"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -72,12 +72,12 @@ class Curve:
 
 
 class Route(Fragment):
-    """Where the belt runs: from the tail drum to the drum at the head."""
+    """The route of the belt from the tail pulley to the head pulley."""
 
     length: Annotated[PositiveSpan | None, OneOf("sections")] = None
-    """distance between tail and head drum, along the belt; or give `sections`"""
+    """distance between tail and head pulley, along the belt; or give `sections`"""
     lift: Annotated[SignedSpan, Absent("a section without a lift is level")] = 0.0
-    """height the load is raised by; negative when it is lowered"""
+    """lifting height of the load; negative when it is lowered"""
     sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=200)] | None = None
     """parts of different slope from the tail to the head, instead of `length` and `lift`"""
     inclination: Literal["exact", "small_angle"] = "exact"
@@ -92,8 +92,8 @@ class Route(Fragment):
         yield from _too_steep(given)
         first = next(iter(given.blocks("sections")), None)
         if first is not None and "curve_radius" in first:
-            reason = "a curve leads into a section from the one before: the first has none"
-            yield Conflict(("sections", 0, "curve_radius"), reason, "write it under the section behind the curve")
+            reason = "a curve connects a section with the section before it: the first section has none"
+            yield Conflict(("sections", 0, "curve_radius"), reason, "write it under the section after the curve")
 
     @property
     def parts(self) -> tuple[Section, ...]:

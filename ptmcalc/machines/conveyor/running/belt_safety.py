@@ -15,7 +15,7 @@ the edition of 2011 computes it. A larger value requires a stronger belt."""
 
 
 def safety_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Safety the file asks, or the one usual for its carcass: textile 8.0 running and 5.4 starting, steel cord 6.7
+    """Safety factor of the file, or the usual one of the carcass: textile 8.0 running and 5.4 starting, steel cord 6.7
     and 4.8.
 
     **Range** vulcanised splices, normal conditions.

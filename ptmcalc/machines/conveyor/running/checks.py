@@ -34,14 +34,14 @@ STRENGTH: Check[Conveyor, ConveyorScene] = Check(
     what="The breaking force of the belt is at least the safety factor times the maximum tension of any section.",
     why="A broken belt runs off the conveyor. Splices fail first, by fatigue.",
     formula="breaking force / S_max >= safety",
-    source="DIN 22101:1982-02 as quoted by belt makers: 8.0/5.4 textile, 6.7/4.8 steel cord (running/starting)",
+    source="DIN 22101:1982-02 as quoted by belt manufacturers: 8.0/5.4 textile, 6.7/4.8 steel cord (running/starting)",
 )
 
 
 def _sag_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Largest sag over idler pitch of the file, 1 % by default.
+    """Permissible sag ratio h/a of the file, 1 % by default.
 
-    **Range** steady running; more is allowed for a moment.
+    **Range** steady running; larger values are permissible for a short time.
     **Error** none: a chosen limit.
     **Source** DIN 22101: at most 1 % in steady running.
     """
@@ -72,9 +72,10 @@ SAG: Check[Conveyor, Run] = Check(
 
 
 def _slack_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Nothing may be missing to the tension at which the belt counts as slack.
+    """0: the tension is at least that of the slack limit.
 
-    **Range** with idler pitches given: 10 % sag by default, where the parabola ends; else no tension at all.
+    **Range** with idler pitches given: 10 % sag by default, the end of the range of the parabola; otherwise zero
+    tension.
     **Error** none: a chosen limit.
     **Source** validity of the shallow parabola (`laws.sag.sag_ratio`), an engineering choice.
     """
@@ -101,11 +102,11 @@ SLACK: Check[Conveyor, ConveyorScene] = Check(
 
 
 def _stroke_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Way the take-up can go, from the file.
+    """Take-up travel given in the file.
 
-    **Range** any take-up with its stroke given.
+    **Range** any take-up with a given stroke.
     **Error** none.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     return Estimate.exact(spec.takeup.stroke or math.inf)
 

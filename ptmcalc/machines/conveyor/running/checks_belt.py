@@ -25,9 +25,9 @@ _TROUGH: KeyPath = ("idlers", "carry", "trough")
 
 
 def _fill_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Largest share of the cross-section of the file, 1 by default.
+    """Permissible filling ratio of the file, 1 by default.
 
-    **Range** even feed; less leaves room for surges and lumps.
+    **Range** uniform feed; a smaller ratio leaves room for surges and lumps.
     **Error** none: a chosen limit.
     **Source** DIN 22101: filling ratio 0.7 to 1.1.
     """
@@ -64,10 +64,10 @@ FILL: Check[Conveyor, Run] = Check(
 
 
 def _drum_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Diameter of the drive drum.
+    """Diameter of the drive pulley.
 
-    **Range** drive drums (group A); others may be smaller by the tables of the standard.
-    **Error** none: it is given.
+    **Range** drive pulleys (group A); other pulleys may be smaller according to the tables of the standard.
+    **Error** none: a given value.
     **Source** the file.
     """
     return Estimate.exact(spec.main_drive.drum.diameter)
@@ -101,7 +101,7 @@ DRUM: Check[Conveyor, Run] = Check(
     " requires.",
     why="A belt bent too sharply at full tension breaks its plies or cords, first at the splice.",
     formula="c d <= D,   c = 80 cotton, 90 polyamide, 108 polyester, 138 aramid, 145 steel cord\n"
-    "D_min <= D   (the diameter the maker of the belt gives)",
+    "D_min <= D   (minimum diameter of the belt manufacturer)",
     source="DIN 22101, drums of group A",
 )
 
@@ -118,11 +118,12 @@ def curve_key(curve: Curve) -> KeyPath:
 
 
 def _fibre_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Largest tension per width of a single fibre: that of the belt's safety in steady running, times an overload.
+    """Permissible tension per width of a single fibre: that of the safety factor in steady running, times a permissible
+    overload.
 
         k = (breaking force/W) m/safety,   m = 1.15 by default
 
-    **Range** steady running; the rest of the belt bears the mean.
+    **Range** steady running; the rest of the belt carries the mean tension.
     **Error** none: a chosen limit.
     **Source** CEMA, "Belt Conveyors for Bulk Materials": edges up to 115 % of the rated tension, as quoted in public
     handbooks; to be compared with the edition in force.
@@ -135,11 +136,11 @@ def _fibre_limit(spec: Conveyor, scene: Run) -> Estimate:
 
 
 def _least_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """No fibre may be pressed.
+    """0: no fibre is under compression.
 
     **Range** steady running.
     **Error** none.
-    **Source** a belt has no stiffness against pressure: it folds.
+    **Source** a belt has no stiffness in compression: it buckles.
     """
     return Estimate.exact(0.0)
 
@@ -217,11 +218,11 @@ PRESSED: Check[Conveyor, Run] = Check(
 
 
 def _lift_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Tension at which the bare belt lifts off its idlers in a hollow: the file's own curves, one by one.
+    """Lift-off tension of the empty belt in each concave curve of the file.
 
         T = rho g R cos(delta),   delta the steeper slope of both sides
 
-    **Range** a belt at rest or slow, which is on the safe side; a curve longer than a few idler pitches.
+    **Range** a belt at standstill or at low speed, which is on the safe side; a curve longer than a few idler pitches.
     **Error** a belt without bending stiffness.
     **Source** `laws.vertical_curve.lift_off_tension`.
     """

@@ -28,11 +28,12 @@ def motors_of(spec: Conveyor) -> dict[str, Motors]:
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
-    """Reserve of all drives in steady running, and the share of its rated torque that each motor gives or brakes with.
+    """Torque reserve of all drives in steady running, and the driving or braking torque of each motor relative to its
+    rated torque.
 
         steady_reserve = max of sum F(v) / W,   motor_utilisation = |M|/M_n
 
-    A start is held against the steady running that follows it.
+    A start is assessed for the steady running that follows it.
 
     **Range** motors with a curve; all drives at one belt speed.
     **Error** exact; with different curves one part in a million.

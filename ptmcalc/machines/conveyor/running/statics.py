@@ -38,14 +38,15 @@ _OF_RUNNING = frozenset(
 
 
 def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Tensions of a steadily running belt from the head's run-off round the loop.
+    """Tensions of a steadily running belt, from the leaving side of the head pulley around the loop.
 
         S(s) = S_off + integral of (resistance + gradient) ds;   S_on = S_off + W
 
-    with S_off the take-up's (gravity) or such that the mean round the loop is the mounting tension (rigid: the
-    total elongation of the belt does not change when it runs). Several drives share W as their torques do.
+    S_off is the take-up tension (gravity take-up), or the value for which the mean tension of the loop is the mounting
+    tension (fixed take-up: the total elongation of the belt is constant). Several drives share W in proportion to their
+    torques.
 
-    **Range** the take-up behind the head's drums; friction independent of speed.
+    **Range** the take-up after the head pulleys; friction independent of speed.
     **Error** exact for that model: a sum of the given resistances.
     **Source** ISO 5048:1989; DIN 22101; mean tension of a fixed loop derived from constant elongation.
     """
@@ -73,7 +74,7 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
         return {"tension_max": course, "tension_min": course}
 
     beyond = _unshared(spec, found)
-    state = "the slip lines of different motors decide how they share the pull" if beyond else ""
+    state = "the slip curves of the motors determine their load sharing" if beyond else ""
     return Result(found, work=1, histories=histories, beyond=beyond, open_end=state)
 
 

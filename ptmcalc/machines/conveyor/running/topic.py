@@ -27,7 +27,7 @@ LOADS = (
     LoadInfo("power_drive_empty", "power at drive pulley shafts, empty belt", units.POWER, headline=False),
     LoadInfo("power_motor_running", "power at motor shafts", units.POWER, headline=False),
     LoadInfo("steady_reserve", "motor torque reserve, steady running", units.RATIO),
-    LoadInfo("motor_utilisation", "motor torque / rated torque, steady running", units.SHARE, headline=False),
+    LoadInfo("motor_utilisation", "motor torque utilisation, steady running", units.SHARE, headline=False),
     LoadInfo("sag_tension_required", "tension required by sag limit", units.FORCE, headline=False),
     LoadInfo("slack_side_tension_required", "slack-side tension required for traction", units.FORCE, headline=False),
     LoadInfo("takeup_travel", "required take-up travel", units.LENGTH, headline=False),

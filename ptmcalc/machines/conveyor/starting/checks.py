@@ -31,10 +31,10 @@ _time_key, _ripple_key = _profile_key(), _profile_key("ripple")
 
 
 def _heat_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """Heat the rotor of one motor may take up in one start, from the file.
+    """Permissible rotor heat of one motor per start, given in the file.
 
-    **Range** a start from the state of the motor for which its maker gives it: cold, or warm from running.
-    **Error** that of the maker's number.
+    **Range** a start from the thermal state of the manufacturer's value: cold, or warm from operation.
+    **Error** that of the manufacturer's value.
     **Source** the motor's data sheet.
     """
     return Estimate.exact(spec.main_drive.motor.start_heat or math.inf)
@@ -79,9 +79,10 @@ MOTOR_HEAT: Check[Conveyor, Start] = Check(
 
 
 def _sharp_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """Largest acceleration of the file, and what grip and slack surely bear where it asks for that.
+    """Permissible acceleration of the file; if required by the file, also the acceleration at which traction and slack
+    limit are met for certain.
 
-    **Range** any start; the margins with one drive and an evenly loaded belt.
+    **Range** any start; the margins for one drive and a uniformly loaded belt.
     **Error** on the safe side: the margins are bounds.
     **Source** the plant's rules; `starting.loads.allowed_acceleration`.
     """
@@ -130,9 +131,9 @@ SHARP: Check[Conveyor, Start] = Check(
 
 
 def _residual_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """Largest swing left behind, from the file.
+    """Permissible residual oscillation, given in the file.
 
-    **Range** profiles that take their time.
+    **Range** profiles over time.
     **Error** none: a chosen limit.
     **Source** the plant's rules.
     """
@@ -147,7 +148,7 @@ def _residual_checks(spec: Conveyor, scene: Start) -> Checks:
 RESIDUAL: Check[Conveyor, Start] = Check(
     code="CNV119",
     title="residual belt oscillation after start",
-    question="Does the start profile leave little oscillation in the first belt mode?",
+    question="Is the residual oscillation in the first belt mode within its limit?",
     failure="start profile excites the first belt mode",
     scenes=frozenset({Start}),
     loads=("start_residual",),
@@ -166,9 +167,9 @@ RESIDUAL: Check[Conveyor, Start] = Check(
 
 
 def _band_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """How far a pulsation has to stay from the three lowest frequencies of the belt, 15 % by default.
+    """Required separation of the drive ripple from the three lowest belt frequencies, 15 % by default.
 
-    **Range** higher modes are damped by belt and idlers.
+    **Range** belt and idlers damp the higher modes.
     **Error** none: a chosen limit.
     **Source** 15 %: a damping of 0.05 lets a mode grow to a third of its peak there; an engineering choice.
     """
@@ -202,7 +203,7 @@ RESONANCE: Check[Conveyor, Start] = Check(
 
 
 def _start_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """The starting force must reach the force needed.
+    """1: the starting force reaches the required force.
 
     **Range** any start.
     **Error** none.

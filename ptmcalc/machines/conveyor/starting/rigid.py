@@ -27,10 +27,11 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
 
         a = F_d/M,   F_d = F - W,   S(s) = S_static(s) + a r(s)
 
-    r(s) is the mass a section pulls (gravity take-up) or that less its mean over the loop (rigid take-up).
+    r(s) is the mass accelerated by a section (gravity take-up), or this mass less its mean over the loop (fixed
+    take-up).
 
     **Range** any start that moves the belt.
-    **Error** no bar of its own: everything it leaves out is in the bounds of the effects it does not represent.
+    **Error** no error bar of its own: the bounds of the neglected effects cover the difference.
     **Source** Newton's law; the split of a fixed loop from constant elongation (`laws.loop_bounds.quasi_static`).
     """
     case = start_case(spec, scene)

@@ -25,7 +25,7 @@ counts as one that does not stop."""
 
 
 def _stop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Longest way of the file, by the kind of stop.
+    """Permissible stopping distance given in the file for the type of stop.
 
     **Range** a stop or an emergency stop with a limit.
     **Error** none: a chosen limit.
@@ -98,9 +98,9 @@ STOP: Check[Conveyor, ConveyorScene] = only(_limited)(
 
 
 def _time_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Longest time of any stop, from the file; an hour without one: then it never stops.
+    """Permissible stopping time given in the file; one hour without it, after which the belt counts as not stopping.
 
-    **Range** any stop; a run-out only where the file gives the limit.
+    **Range** any stop; a coasting stop only if the file gives the limit.
     **Error** none: a chosen limit.
     **Source** the plant's rules.
     """
@@ -137,11 +137,11 @@ STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
 
 
 def _brake_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Torque of all brakes that act, on the drum shaft of the head.
+    """Torque of all acting brakes on the shaft of the head pulley.
 
         M = sum F_brake R
 
-    **Range** brakes at full torque; delay and rise are in the simulated way (CNV106), not here.
+    **Range** brakes at full torque; the simulated stopping distance (CNV106) includes delay and rise.
     **Error** that of the gear's efficiency, which is an input.
     **Source** `motion.braking`.
     """

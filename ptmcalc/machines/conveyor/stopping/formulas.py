@@ -34,15 +34,16 @@ def _exactly(loads: dict[str, float]) -> Result:
 
 
 def brake(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
-    """Torque on the drum shaft that stops the rigid conveyor within the way of the file, and its pull on the belt.
+    """Torque on the pulley shaft that stops the rigid conveyor within the distance of the file, and the belt tension it
+    adds.
 
         M = (m v^2/(2 s) - W) R,  not below 0;   S_ov = m_belt v^2/(2 s)
 
-    W > 0 opposes the motion and helps; downhill it may drive. m holds everything that moves, rotors included. Without
-    a way in the file the pull is that of the brakes it has, S_ov = m_belt (W + B)/m.
+    W > 0 opposes the motion and helps; downhill W may be negative. m includes all moving masses and rotors. Without a
+    distance in the file the added tension is that of the given brakes, S_ov = m_belt (W + B)/m.
 
-    **Range** uniform deceleration, the brake at full torque from the first moment.
-    **Error** exact for the rigid conveyor; delay, rise and waves are in the simulated way.
+    **Range** uniform deceleration, the brake at full torque from the beginning.
+    **Error** exact for the rigid conveyor; the simulated stopping distance includes delay, rise and waves.
     **Source** lecture notes Kramatorsk 2007, signed form.
     """
     way, line = spec.stop_distance_limit(scene), running(spec, scene)
@@ -60,12 +61,12 @@ def brake(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: 
 
 
 def brake_notes(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
-    """The brake torque of the textbook, on the drum shaft.
+    """Textbook brake torque on the pulley shaft.
 
         M = (|W| + m v^2/(2 s)) R
 
-    **Range** as `brake`; it equals the signed form where the load drives the conveyor.
-    **Error** none bound: uphill it adds the resistance to what the brake must do instead of crediting it.
+    **Range** as `brake`; equal to the signed form if the load drives the conveyor.
+    **Error** no bound: uphill the formula adds the resistance to the brake force instead of subtracting it.
     **Source** lecture notes Kramatorsk 2007, M, M_st and M_T in turn.
     """
     way = spec.stop_distance_limit(scene)
@@ -80,15 +81,16 @@ def brake_notes(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], l
 
 
 def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) -> Result:
-    """Resistance coefficient that a measured run-out tells.
+    """Friction factor f from a measured coasting distance.
 
         m v^2/2 = s (f N + H),   f = (m v^2/(2 s) - H)/N
 
-    N s f is the idlers' work with the factor C of the file, H the lift.
+    N s f is the work of the idlers with the coefficient C of the file, H the slope resistance.
 
-    **Range** a run-out from rated speed without brakes, gears engaged; secondary forces taken off H; not by CEMA.
-    **Error** twice that of the speed, once that of the way.
-    **Source** lecture notes Kramatorsk 2007: energy of the run-out.
+    **Range** coasting from rated speed without brakes, gears engaged; secondary forces subtracted from H; not for the
+    CEMA method.
+    **Error** twice the relative error of the speed plus that of the distance.
+    **Source** lecture notes Kramatorsk 2007: energy balance of coasting.
     """
     way = scene.measured_distance
     if way is None or spec.resistance.cema is not None:
@@ -109,11 +111,11 @@ def _friction_per_coefficient(spec: Conveyor, scene: Coast, line: BeltLine) -> t
 
 
 def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
-    """Time and way of the rigid conveyor to rest, brakes with delay and rise.
+    """Stopping time and stopping distance of the rigid conveyor, brakes with delay and rise.
 
         M v' = -(W + B(t))
 
-    **Range** any stop; infinite where nothing stops it.
+    **Range** any stop; infinite if nothing stops the motion.
     **Error** none of its own; the belt at the head of a long conveyor stops earlier or later than its mean.
     **Source** Newton's law.
     """

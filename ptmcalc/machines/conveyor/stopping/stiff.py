@@ -26,8 +26,9 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
         M v' = -(W + B(t)),   S(s) = S_static(s) - a r(s)
 
-    **Range** a belt round which a wave goes a thousand times while it stops; one slope, one drive, brakes at the head.
-    **Error** no bar of its own: the bound of the waves is that of `stopping.stiff_bounds`.
+    **Range** a belt with a stopping time of at least a thousand wave circuits; one slope, one drive, brakes at the
+    head.
+    **Error** no error bar of its own: the wave bound is that of `stopping.stiff_bounds`.
     **Source** Newton's law.
     """
     stop = stiff_bounds.short_stop(spec, scene)
@@ -36,7 +37,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     if stop is None:
         raise NumericsError(
             "NUM103",
-            f"a wave goes round the belt {rounds(spec, scene):.0f} times in the time of the scene, which is too much to"
+            f"a wave travels {rounds(spec, scene):.0f} times in the time of the scene, which is too much to"
             " simulate; what its waves can do is only known without simulation for a stop on one slope with one drive,"
             " brakes at the head, no take-up weight and little sag",
         )
@@ -79,10 +80,10 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     **Source** work of `solvers.network`.
     """
     if spec.effects.get("belt_wave") == "off" and not isinstance(scene, Jam):
-        return Criterion("off", 0.0, 1.0, "the file leaves the waves of the belt out", "the file")
+        return Criterion("off", 0.0, 1.0, "the file switches off the waves of the belt", "the file")
     count = rounds(spec, scene)
     share = MOST_ROUNDS / count if count >= MOST_ROUNDS else 2.0
-    meaning = "rounds that can be simulated over those in the time of the scene: above 1 the belt is simulated"
+    meaning = "simulated wave circuits / wave circuits during the scene: above 1 the belt is simulated"
     return Criterion("1000/n", share, math.nextafter(1, 2), meaning, "cost")
 
 

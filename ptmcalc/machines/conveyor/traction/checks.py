@@ -59,11 +59,12 @@ def _slip_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 
 
 def _slip_value(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Estimate:
-    """The reserve of grip by the definition of the file: of force, or of the ratio of tensions (1/U).
+    """Traction reserve by the definition in the file: of the force, or of the tension ratio (1/U).
 
-    The reserve of force leaves out the centrifugal tension; a belt at U = 1 slips whatever it says, and has none.
+    The force reserve neglects the centrifugal tension. A belt at U = 1 slips for any force reserve, and its reserve is
+    0.
 
-    **Range** any state of the drum; infinite where it transmits nothing.
+    **Range** any state of the pulley; infinite if it transmits no force.
     **Error** that of the load.
     **Source** `laws.capstan`.
     """
@@ -158,11 +159,11 @@ SLIP: Check[Conveyor, ConveyorScene] = Check(
 
 
 def _heat_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Largest heat of slip of the file.
+    """Permissible slip heat given in the file.
 
-    **Range** any scene in motion with the limit given.
+    **Range** any scene in motion with a given limit.
     **Error** none: a chosen limit.
-    **Source** the lagging maker's data.
+    **Source** data of the lagging manufacturer.
     """
     return Estimate.exact(spec.checks.slip_heat or math.inf)
 

@@ -58,7 +58,7 @@ def findings_of(case: Moving, drawn: Drawn) -> Iterator[Finding]:
         if low.value < 0 and not (sags and strand.span_weight):
             yield Finding(
                 "NUM102",
-                f"the belt goes slack at {low.time:.3g} s, {low.place:.4g} m behind the drive pulley; the results of"
+                f"the belt goes slack at {low.time:.3g} s, {low.place:.4g} m after the drive pulley; the results of"
                 " the time after that are not reliable",
                 ("takeup", "tension"),
                 "a higher `tension` keeps the belt taut",
@@ -67,7 +67,7 @@ def findings_of(case: Moving, drawn: Drawn) -> Iterator[Finding]:
 
 def events_of(drawn: Drawn, ready: Set) -> Iterator[Event]:
     """When the drums at head and tail begin and cease to slip."""
-    words = {0: "sticks", 1: "slips, ahead of the belt", -1: "slips, behind the belt"}
+    words = {0: "sticks", 1: "slips, faster than the belt", -1: "slips, slower than the belt"}
     found = []
     for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
         for index, drum in enumerate(station.drums):

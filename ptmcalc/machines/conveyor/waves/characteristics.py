@@ -46,9 +46,9 @@ _OVERHEAD = 3e-3
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Loads of a start from the waves of both strands, exact in transport (`numerics.strand`).
+    """Loads of a start from the waves of both strands, with exact wave transport (`numerics.strand`).
 
-    Carried effects: `belt_wave` always; `tail_jump` (without it the return strand has the impedance of the carry
+    Simulated effects: `belt_wave` always; `tail_jump` (without it the return strand has the impedance of the carrying
     strand), `tail_mass`, `slip`, `sag`. Refinement `level` halves the cells of both of its grids.
 
     **Range** linear belt, idler resistance as if the whole belt slid forward; a belt that goes slack or runs
@@ -219,7 +219,7 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
         "W/F",
         0.0 if case.moves else max(case.line.static_resistance / case.available_force, 1.0),
         1.0,
-        "static resistance over the drive's force: at 1 the belt stays at rest",
+        "static resistance / drive force: at 1 the belt does not move",
         "Newton's law",
     )
 

@@ -93,7 +93,7 @@ def finding(case: Moving, drawn: Drawn, window: float) -> Finding:
     """Where and when it sags too deep, and what is known nevertheless."""
     low = min(_sagging(case, drawn), key=lambda one: one.value)
     does = "goes slack" if low.value < 0 else "sags by more than a tenth of the idler pitch"
-    return taut(f"{does}, most at {low.time:.3g} s, {low.place:.4g} m behind the drive pulley", window)
+    return taut(f"{does}, most at {low.time:.3g} s, {low.place:.4g} m after the drive pulley", window)
 
 
 def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
@@ -110,7 +110,7 @@ def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
     for strand, (limit, kept) in enumerate(zip(doubtless, tension_loads.slack_limits(case.line), strict=True)):
         if limit > 0 and lows and all(low[strand].value < min(limit, kept) for low in lows):
             low = lows[-1][strand]
-            does = f"at {low.time:.3g} s its tension is lowest, {low.place:.4g} m behind the drive pulley"
+            does = f"at {low.time:.3g} s its tension is lowest, {low.place:.4g} m after the drive pulley"
             cure = "a higher `tension` keeps the belt taut"
             yield Failure("CNV105", f"the belt goes slack: {does}", ("takeup", "tension"), cure)
             return
@@ -118,7 +118,7 @@ def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
 
 def taut(does: str, window: float) -> Finding:
     """What a belt does that its tension is too low for, and how long it was trusted [s]."""
-    known = f"what came in the first {window:.3g} s is certain, and no more" if window else "no peak of it is certain"
+    known = f"only results of the first {window:.3g} s are reliable" if window else "no peak is reliable"
     return Finding(
         "NUM102", f"the belt {does}; {known}", ("takeup", "tension"), "a higher `tension` keeps the belt taut"
     )

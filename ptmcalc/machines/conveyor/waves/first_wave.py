@@ -14,15 +14,15 @@ from ptmcalc.machines.conveyor.start_case import start_case
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Largest dynamic tension of the direct wave, as the textbook takes it.
+    """Maximum dynamic tension of the direct wave by the textbook formula.
 
         gravity take-up: S_d = F_d (1 - exp(-Z1 t_max/m)),  t_max = 2 (L/c1 + L/c2)
-        rigid take-up:   S_on rises by Z1 v, S_off drops by Z2 v,  v = F_d/(Z1 + Z2) until the first echo
+        fixed take-up:   S_on rises by Z1 v, S_off falls by Z2 v,  v = F_d/(Z1 + Z2) until the first echo
 
-    **Range** a torque step; gravity take-up: strands of equal impedance; rigid take-up: until the first echo.
-    **Error** no bound: -29 % to +23 % of the peak over the usual belts, and the rigid take-up's drop is up to
-    2.9 times larger than this. It never decides.
-    **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; rigid take-up derived from the same wave.
+    **Range** a torque step; gravity take-up: strands of equal impedance; fixed take-up: until the first echo.
+    **Error** no bound: -29 % to +23 % of the peak over the usual belts, and the drop with a fixed take-up is up to 2.9
+    times the formula value. The formula never decides a verdict.
+    **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; fixed take-up derived from the same wave.
     """
     case = start_case(spec, scene)
     line = case.line

@@ -45,9 +45,10 @@ without a gain."""
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
     """Loads of a scene in which the belt moves, from three grids.
 
-    **Range** any scene in motion; a belt whose tension falls below 0 is not what this computes, and says so. Of a belt
-    that sags too deep on the way only what came before is told (`deep_sag`).
-    **Error** as the module says: an estimate from three grids, held on the seeded sample of the coverage tests.
+    **Range** any scene in motion of a taut belt; the result reports a belt whose tension falls below 0. If the belt
+    sags too far, only the results before that moment are reported (`deep_sag`).
+    **Error** as described in the module: an estimate from three grids, verified by the seeded sample of the coverage
+    tests.
     **Source** method of characteristics with lumped idlers; derived in `numerics.belt`.
     """
     case = moving(spec, scene)
@@ -94,7 +95,7 @@ def _ending(case: Moving, runs: Sequence[CellRun], slipping: bool) -> Ending | N
     end = ending(line, slowest, slipping, replace(row, pulls=row.pulls - np.concatenate(statics)), course.tail)
     if end.state or run.ready.travel is None or run.ready.head.imposed is None or run.ready.tail.imposed is None:
         return end
-    shifts = f"belt at {slowest:.3g} m/s, the load still shifts between the drives at head and tail"
+    shifts = f"belt at {slowest:.3g} m/s, the load share of the drives at head and tail still changes"
     return replace(end, drifts=True, state=shifts)
 
 
@@ -113,10 +114,10 @@ def _before(case: Moving, carried: frozenset[str], level: int, lost: GripLostErr
             work=sum(part.work for part in runs),
             window=(0.0, window),
             health={"energy_residual": drawn.energy_residual, "cells": ready.course.cells},
-            findings=(deep_sag.taut(f"loses its tension on a slipping drum at {lost.time:.3g} s", window),),
+            findings=(deep_sag.taut(f"loses its tension on a slipping pulley at {lost.time:.3g} s", window),),
             events=tuple(events_of(drawn, ready)),
         )
-    raise NumericsError("NUM102", f"the belt loses its tension on a slipping drum at {lost.time:.3g} s")
+    raise NumericsError("NUM102", f"the belt loses its tension on a slipping pulley at {lost.time:.3g} s")
 
 
 def cost(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> float:
@@ -139,14 +140,14 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     between drum and tail where a start is plain.
     """
     if _plain(spec, scene):
-        return Criterion("plain", 1.0, 1.0, "a plain start, which the delay lines carry", "solvers.characteristics")
+        return Criterion("plain", 1.0, 1.0, "a plain start, simulated by the delay lines", "solvers.characteristics")
     return _simulable(spec, scene)
 
 
 def valid_running(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """The same for a plain start, of which only what the running belt carries along is left to the cells.
 
-        v/c, belt speed over that of its slowest wave, read from the other side: below 0.015 the bound of that effect is
+        v/c, belt speed / speed of the slowest wave, read from the other side: below 0.015 the bound of that effect is
         narrower than the bars of the cells, unless a drum may slip: it has no bound of how far;
         1 for anything but a plain start;   else as `valid`
 
@@ -155,10 +156,10 @@ def valid_running(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     **Source** as `valid`.
     """
     if not _plain(spec, scene):
-        return Criterion("plain", 1.0, 1.0, "no plain start: the network carries it", "solvers.network")
+        return Criterion("plain", 1.0, 1.0, "not a plain start: simulated by the network", "solvers.network")
     speed = belt_travel(belt_line(spec, scene))
     if speed < _WORTH and spec.effects.get("moving_belt") != "on" and not _may_slip(spec, scene):
-        meaning = "what the belt carries along is bounded closer than the cells know it"
+        meaning = "the bound of wave convection is narrower than the error of the cells"
         return Criterion("0.015 c/v", _WORTH / speed, 1.0, meaning, "effects.travel_bound")
     return _simulable(spec, scene)
 
@@ -173,7 +174,7 @@ def valid_witness(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     **Source** as `valid`.
     """
     if not _plain(spec, scene):
-        return Criterion("plain", 1.0, 1.0, "no plain start: the network itself is planned", "solvers.network")
+        return Criterion("plain", 1.0, 1.0, "not a plain start: the network itself is planned", "solvers.network")
     return _simulable(spec, scene)
 
 
@@ -192,14 +193,14 @@ def _plain(spec: Conveyor, scene: ConveyorScene) -> bool:
 def _simulable(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     case = moving(spec, scene)
     if isinstance(scene, Start) and case.imposed is None and case.window <= 0:
-        return Criterion("W/F", 1.0, 1.0, "static resistance over the drives' force: the belt stays at rest", "Newton")
+        return Criterion("W/F", 1.0, 1.0, "static resistance / drive force: the belt does not move", "Newton")
     line = case.line
     lift = line.centrifugal_at_speed / line.run_off if line.run_off > 0 else math.inf
     if lift >= 1:
         return Criterion("rho v^2/S", lift, 1.0, "centrifugal tension relative to the leaving tension", "laws.capstan")
     count = case.window / line.contour_time
     if count >= MOST_ROUNDS:
-        return Criterion("n", count, MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")
+        return Criterion("n", count, MOST_ROUNDS, "wave circuits during the scene: too much work", "cost")
     return None
 
 

@@ -186,7 +186,7 @@ def findings_of(case: StartCase, motion: loop.Motion, sagging: bool) -> list[Fin
         found.append(
             Finding(
                 "NUM104",
-                "a part of the belt runs backward for a moment; its idler resistance is taken as if it ran forward",
+                "a part of the belt runs backward briefly; its idler resistance is that of forward motion",
             )
         )
     return found

@@ -17,15 +17,15 @@ from ptmcalc.machines.conveyor.waves.effects import tail
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Run-on tension of a uniform loop, from `laws.wave.two_interval_force`.
+    """Entering tension of a uniform loop, from `laws.wave.two_interval_force`.
 
         S_on = S_static + S(t),  0 <= t <= window <= 2 T
 
-    The slip numbers take the largest run-on tension with the centrifugal tension between 0 and that of the fastest
-    the drum can be by then, F_d t/m or the rated speed's.
+    The slip values use the maximum entering tension and a centrifugal tension between 0 and that of the highest
+    possible pulley speed, F_d t/m or the rated speed.
 
-    **Range** gravity take-up, torque step, window at most two contour times; equal strands (a jump of impedance or
-    a tail mass adds the bound of its effect).
+    **Range** gravity take-up, torque step, window at most two wave circuits; equal strands (a jump of impedance or a
+    tail mass adds the bound of its effect).
     **Error** exact for the tension; for slip the stated interval of the centrifugal tension.
     **Source** derived by the method of steps (`laws.wave`).
     """
@@ -94,7 +94,7 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
         "u",
         ratio,
         1.0 + 1e-12,
-        "window, impedance jump and tail mass over what the closed form allows",
+        "window, impedance jump and tail mass relative to the limits of the closed form",
         "laws.wave",
     )
 

@@ -109,4 +109,6 @@ def failures_of(case: Moving, drawn: Drawn, ready: Set) -> Iterator[Failure]:
     (drum,) = ready.head.drums
     reason = f"the belt slips on the braked pulley `{drum.name}` and does not stop: {belt:.3g} m/s after {time:.3g} s"
     for code in ("CNV101", "CNV106", "CNV107"):
-        yield Failure(code, reason, ("takeup", "tension"), "more take-up tension, or a brake on a second pulley")
+        yield Failure(
+            code, reason, ("takeup", "tension"), "increase the take-up tension, or add a brake on a second pulley"
+        )

@@ -4,5 +4,5 @@ from ptmcalc.machines.crane.stacking.manifest import stacker
 from ptmcalc.machines.crane.stacking.overhead import SCENES, OverheadStacker
 
 OVERHEAD_STACKER = stacker(
-    __name__, "overhead_stacker", "overhead stacker: bridge, trolley, hanging column", OverheadStacker, SCENES
+    __name__, "overhead_stacker", "overhead stacker: bridge, trolley, suspended mast", OverheadStacker, SCENES
 )

@@ -3,4 +3,6 @@
 from ptmcalc.machines.crane.stacking.manifest import stacker
 from ptmcalc.machines.crane.stacking.rack import SCENES, RackStacker
 
-RACK_STACKER = stacker(__name__, "rack_stacker", "rack stacker: base, standing column", RackStacker, SCENES)
+RACK_STACKER = stacker(
+    __name__, "rack_stacker", "rack stacker (storage/retrieval machine): base, mast", RackStacker, SCENES
+)

@@ -21,7 +21,7 @@ def assumptions(spec: SlewingCrane) -> Iterator[Assumption[SlewingCrane]]:
             units.FACTOR,
             lambda spec: 1.7,
             lambda spec: Interval(1.4, 2.0),
-            "rotor with coupling: 1.4 to 2 times the rotor (course notes on the slewing crane on a fixed column)",
+            "rotor with coupling: 1.4 to 2 times the rotor inertia (course notes, slewing crane on a fixed column)",
         )
     back, forward = spec.gear.back, spec.gear.efficiency
     yield Assumption(
@@ -55,7 +55,7 @@ def _of_the_parts(spec: SlewingCrane) -> Iterator[Assumption[SlewingCrane]]:
             units.SPAN,
             lambda spec: 0.0,
             lambda spec: Interval(0.0, 0.5 * load.radius),
-            "the head of a jib is up to half its radius above the ring",
+            "the jib head is at most half the jib radius above the ring",
         )
         if spec.ring.wind_force is not None:
             yield Assumption(
@@ -63,7 +63,7 @@ def _of_the_parts(spec: SlewingCrane) -> Iterator[Assumption[SlewingCrane]]:
                 units.SPAN,
                 lambda spec: 0.0,
                 lambda spec: Interval(0.0, 0.5 * load.radius),
-                "the wind acts at half the height of the jib, which is up to its radius",
+                "the wind acts at half the height of the jib; the jib height is at most its radius",
             )
 
 
@@ -73,7 +73,7 @@ def _of_a_part(key: str, most: float) -> Assumption[SlewingCrane]:
         units.INERTIA,
         lambda spec: 0.0,
         lambda spec: Interval(0.0, most),
-        "a point, or up to a seventh of the jib's radius wide about its centre",
+        "a point load, or a load of a width of up to a seventh of the jib radius",
     )
 
 
@@ -86,7 +86,7 @@ def _of_the_wind(spec: SlewingCrane) -> Iterator[Assumption[SlewingCrane]]:
             units.TORQUE,
             lambda spec: least,
             lambda spec: Interval(least, max(2 * wind.steady_torque, least) * 1.001),
-            "EN 13001-2, ISO 4302: 125 Pa in light, 250 Pa in normal wind in service",
+            "EN 13001-2, ISO 4302: 125 Pa (light) and 250 Pa (normal) in-service wind",
         )
     if wind.gust_torque > 0:
         yield Assumption(

@@ -5,7 +5,7 @@ from ptmcalc.contract.figure import Course, Figure
 FIGURES = (
     Figure(
         "sway",
-        "Angles of the load over time",
+        "Sway angles of the load over time",
         ("slew",),
         (Course("sway_tangential_max"), Course("sway_radial_max")),
         "angle of the rope",

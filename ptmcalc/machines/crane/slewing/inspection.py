@@ -35,7 +35,8 @@ def inspect(spec: SlewingCrane) -> Iterator[Finding]:
             said = units.show(spec.speed, units.ANGULAR_SPEED)
             yield Finding(
                 "SPC201",
-                f"motor and gear turn the crane at {units.show(turns, units.ANGULAR_SPEED)}, the file states {said}",
+                f"motor and gear result in a slewing speed of {units.show(turns, units.ANGULAR_SPEED)},"
+                f" the file states {said}",
                 ("speed",),
                 "correct the speed, or the ratio from motor to crane with its open stage",
             )
@@ -53,10 +54,15 @@ def _exclude(spec: SlewingCrane, scene: SlewingScene, time: float, key: KeyPath)
     given = spec.motor.count
     shown, wanted = (units.show(one / given, units.TORQUE) for one in (torque, needed))
     asked = units.show(time, units.TIME)
-    takes = f"{shown} start it in {units.show(own, units.TIME)}" if math.isfinite(own) else f"{shown} do not start it"
+    takes = (
+        f"{shown} result in a starting time of {units.show(own, units.TIME)}"
+        if math.isfinite(own)
+        else f"{shown} do not start the crane"
+    )
     yield Finding(
         "SPC201",
-        f"{shown} and {asked} exclude each other: {takes}, {asked} need {wanted}" + _worth(spec, scene, time, needed),
+        f"{shown} and {asked} contradict each other: {takes}, {asked} require {wanted}"
+        + _worth(spec, scene, time, needed),
         ("motor", spec.motor.torque_key),
         "correct one of them; `handbook` takes both as they are, everything else the torque",
         key,
@@ -70,7 +76,7 @@ def _worth(spec: SlewingCrane, scene: SlewingScene, time: float, needed: float) 
         return ""
     by_torque = _equivalent(spec, scene, own, torque, rounded=False)
     by_time = _equivalent(spec, scene, time, needed, rounded=spec.handbook.shares == "rounded")
-    return f"; the equivalent torque at the column is {by_torque} with the torque, {by_time} with the time"
+    return f"; the equivalent torque about the slewing axis is {by_torque} with the torque, {by_time} with the time"
 
 
 def _equivalent(spec: SlewingCrane, scene: SlewingScene, start: float, torque: float, *, rounded: bool) -> str:

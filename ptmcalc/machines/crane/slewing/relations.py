@@ -25,13 +25,13 @@ def _steady(spec: SlewingCrane, scene: SlewingScene, loads: Numbers) -> float:
 RELATIONS: tuple[Relation, ...] = (
     ordered("sway_max", "sway_radial_max", _SLEWS, "the angle of the rope is at least the radial one"),
     ordered("sway_max", "sway_tangential_max", _SLEWS, "the angle of the rope is at least the tangential one"),
-    ordered("sway_max", "sway_residual", _SLEWS, "the swing that stays is within the largest angle of the rope"),
+    ordered("sway_max", "sway_residual", _SLEWS, "the residual sway is at most the maximum angle of the rope"),
     computed(
         "cycle_time", ("start_time", "steady_time", "brake_time"), _whole, _SLEWS,
-        "a rotation takes the time of its start, of steady slewing and of its stop",
+        "the time of a slewing motion is the sum of starting, steady slewing and stopping time",
     ),
     computed(
-        "rotation_used", ("start_angle", "brake_angle"), _used, _SLEWS, "start and stop take their angles of the whole"
+        "rotation_used", ("start_angle", "brake_angle"), _used, _SLEWS, "the angle share is that of start and stop"
     ),
     computed("steady_time", ("steady_angle",), _steady, _SLEWS, "steady slewing is at the speed of the crane"),
 )  # fmt: skip

@@ -41,18 +41,18 @@ BrakeAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=6.2832)]
 
 
 class Load(Fragment):
-    """What hangs on the jib."""
+    """The load on the jib."""
 
     mass: PositiveMass
     """rated load with its grab or sling"""
     hook_block: Annotated[Mass | None, Assumed()] = None
-    """hook block and whatever stays on the hook"""
+    """hook block and permanent load handling devices"""
     radius: PositiveSpan = Field(examples=["8 m"])
-    """from the slewing axis to the head of the jib, where the rope hangs"""
+    """from the slewing axis to the jib head"""
     rope_length: Annotated[
-        PositiveSpan | None, Absent("checks of the swing need it, and are not checked without it")
+        PositiveSpan | None, Absent("the sway checks require it and report `not checked` without it")
     ] = Field(default=None, examples=["6 m"])
-    """from the head of the jib to the middle of the load; needed to see the load swing"""
+    """from the jib head to the load centre; needed for the load sway"""
 
 
 class Body(Fragment):
@@ -67,39 +67,39 @@ class Body(Fragment):
 
 
 class Jib(Fragment):
-    """The jib as an even rod that reaches outwards."""
+    """The jib as a uniform rod."""
 
     mass: PositiveMass
     """of the jib"""
     length: PositiveSpan
     """of the jib, as seen from above"""
-    foot_radius: Annotated[Span, Absent("the jib begins at the axis")] = 0.0
-    """from the slewing axis to its near end"""
+    foot_radius: Annotated[Span, Absent("the jib starts at the slewing axis")] = 0.0
+    """from the slewing axis to the jib foot"""
 
 
 class Wind(Fragment):
-    """What the wind does about the slewing axis: torques, or an area on an arm and its pressures."""
+    """The wind torque about the slewing axis: torques, or an area on a lever arm and its pressures."""
 
-    steady: Annotated[Torque | None, Absent("no wind: the crane stands indoors")] = None
-    """torque in the mean of a working day"""
+    steady: Annotated[Torque | None, Absent("no wind: indoor crane")] = None
+    """mean torque of a working day"""
     maximum: Annotated[Torque | None, Assumed()] = None
-    """largest torque in service, for the brake and for a motor that must hold; the steady one with its gust at least"""
-    gust: Annotated[Torque | None, Absent("gusts are part of the largest wind, which checks of holding read")] = None
-    """torque of a gust that comes on top of the steady wind; held like the largest wind"""
+    """maximum in-service torque, for brake and motor; at least the steady torque plus the gust"""
+    gust: Annotated[Torque | None, Absent("gusts are part of the maximum wind of the holding checks")] = None
+    """torque of a gust in addition to the steady wind"""
     area: Annotated[PositiveArea | None, OneOf("steady, maximum, gust")] = Field(default=None, examples=["12 m^2"])
-    """side of jib and load in the wind, both sides of the axis weighed up, or give the torques"""
+    """net wind area of jib and load about the slewing axis, or give the torques"""
     arm: Annotated[PositiveSpan | None, OneOf("steady, maximum, gust")] = Field(default=None, examples=["4 m"])
-    """from the slewing axis to the middle of the area"""
+    """from the slewing axis to the centre of the area"""
     steady_pressure: Annotated[PositivePressure | None, OneOf("steady")] = Field(default=None, examples=["50 Pa"])
     """of the wind of a working day"""
     maximum_pressure: Annotated[PositivePressure | None, OneOf("maximum")] = None
-    """largest in service; 250 Pa by most standards"""
+    """maximum in-service pressure; 250 Pa by most standards"""
     gust_pressure: Annotated[PositivePressure | None, OneOf("gust")] = None
-    """of a gust, on top of the steady one"""
+    """pressure of a gust, in addition to the steady one"""
     gust_rise: Annotated[PositiveTime | None, Assumed()] = None
     """rise time of a gust"""
     gust_time: Annotated[PositiveTime | None, Assumed()] = None
-    """how long it lasts"""
+    """duration of the gust"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -115,7 +115,7 @@ class Wind(Fragment):
             yield given.missing("steady_pressure", "the wind on the area has no pressure")
         steady, most = given.number("steady"), given.number("maximum")
         if steady is not None and most is not None and most < steady:
-            yield Conflict(("maximum",), "the largest wind is below the steady one", "swap them")
+            yield Conflict(("maximum",), "the maximum wind is below the steady wind", "swap them")
 
     def _torque(self, torque: float | None, pressure: float | None) -> float | None:
         if torque is not None:
@@ -141,22 +141,22 @@ class Wind(Fragment):
 
 
 class Cycle(Fragment):
-    """What the crane does again and again."""
+    """The working cycle of the crane."""
 
     rotation: Annotated[
-        PositiveAngle, Absent("half a turn is the largest rotation of a crane that slews in both directions")
+        PositiveAngle, Absent("180 deg is the maximum slewing angle of a crane that slews in both directions")
     ] = 3.141592653589793
     """from pick-up to put-down; 180 deg when left out"""
     brake_angle: BrakeAngle = Field(examples=["15 deg"])
-    """largest allowed angle of a stop: 15 deg in light duty"""
+    """permissible stopping angle: 15 deg in light duty"""
     start_time: Annotated[PositiveTime | None, OneOf("start_angle, motor.mean_starting_torque")] = None
     """starting time, if the motor torque does not determine it"""
     start_angle: Annotated[PositiveAngle | None, OneOf("start_time, motor.mean_starting_torque")] = None
-    """over which it comes to speed, instead of `start_time`"""
-    pause: Annotated[Time, Absent("without a rest the motor is hottest")] = 0.0
-    """rest between two rotations, which cools the motor"""
-    exponent: Annotated[PositiveRatio, Absent("3: contact of teeth, by which gearboxes are rated")] = 3.0
-    """slope of fatigue m of the equivalent torque: 3 contact of teeth, 6 to 9 their bending"""
+    """angle of the start, instead of `start_time`"""
+    pause: Annotated[Time, Absent("without a pause, the motor temperature is highest")] = 0.0
+    """pause between two slewing motions, in which the motor cools"""
+    exponent: Annotated[PositiveRatio, Absent("3: tooth contact, the basis of gearbox ratings")] = 3.0
+    """fatigue exponent m of the equivalent torque: 3 for tooth contact, 6 to 9 for tooth bending"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -164,20 +164,20 @@ class Cycle(Fragment):
         yield from at_most_one(given, "start_time", "start_angle")
         whole, stop = given.number("rotation"), given.number("brake_angle")
         if whole is not None and stop is not None and stop >= whole:
-            yield Conflict(("brake_angle",), "the stop is longer than the whole rotation", "check both angles")
+            yield Conflict(("brake_angle",), "the stopping angle exceeds the whole slewing angle", "check both angles")
 
 
 class Handbook(Fragment):
-    """What the handbook's chain of formulas is fed with; nothing else uses it."""
+    """Inputs of the handbook formulas only."""
 
     start_time: Annotated[PositiveTime | None, OneOf("cycle.start_time")] = None
-    """the time that the handbook takes for a start"""
+    """starting time of the handbook formulas"""
     start_angle: Annotated[PositiveAngle | None, OneOf("cycle.start_angle")] = None
-    """the angle that the handbook takes for a start, instead of its time"""
+    """starting angle of the handbook formulas, instead of the time"""
     shares: Literal["rounded", "exact"] = "rounded"
     """shares of the cycle rounded to three digits and not renormalised, as printed course projects do, or exact"""
     rotor_eta_rule: Literal["eta", "one", "inverse"] = "eta"
-    """how the gear's efficiency stands with the rotor's inertia at the column: J u^2 eta, J u^2 or J u^2/eta"""
+    """gear efficiency in the reduced rotor inertia: J u^2 eta, J u^2 or J u^2/eta"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -197,22 +197,22 @@ class RingPoint(Fragment):
 class Ring(Fragment):
     """The slewing ring bearing, or the bearings of a fixed column."""
 
-    mass_above: Annotated[Mass | None, Absent("the sum of the parts that the file gives")] = None
-    """all that rests on it without the load; the sum of the parts when left out"""
+    mass_above: Annotated[Mass | None, Absent("the sum of the parts given in the file")] = None
+    """mass above the ring without the load; default: sum of the parts"""
     unbalance: Annotated[
-        Annotated[float, Measure(units.TORQUE)] | None, Absent("that of the parts that the file gives")
+        Annotated[float, Measure(units.TORQUE)] | None, Absent("the value of the parts given in the file")
     ] = None
-    """tilting moment of the crane without its load, towards the load; that of the parts when left out"""
+    """tilting moment of the crane without load, towards the load; default: that of the parts"""
     head_height: Annotated[Span | None, Assumed()] = None
-    """of the head of the jib over the ring, where the load's swing pulls"""
+    """height of the jib head above the ring"""
     wind_height: Annotated[Span | None, Assumed()] = None
-    """of the middle of the wind's area over the ring"""
-    wind_force: Annotated[PositiveForce | None, Absent("no wind along the jib: the crane stands indoors")] = None
-    """of the largest wind in service along the jib"""
+    """height of the centre of the wind area above the ring"""
+    wind_force: Annotated[PositiveForce | None, Absent("no wind along the jib: indoor crane")] = None
+    """force of the maximum in-service wind along the jib"""
     load_factor: Annotated[Annotated[float, Measure(units.FACTOR, at_least=1, at_most=5)], Limit()] = 1.25
-    """on the load's weight: hoisting and test loads; catalogues ask 1.25"""
+    """factor on the load weight for hoisting and test loads; catalogues require 1.25"""
     curve: Annotated[tuple[RingPoint, ...], Field(min_length=1, max_length=50)] | None = None
-    """limiting load curve of the catalogue, axial forces rising; needed to check the ring"""
+    """limiting load curve of the catalogue, in ascending axial force; needed to check the ring"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -225,25 +225,25 @@ class Ring(Fragment):
 
 
 class SpectrumPoint(Fragment):
-    """A part of the crane's working life."""
+    """A part of the load spectrum."""
 
     share: PositiveShare
     """of all cycles"""
     load: Share
-    """over the rated load"""
+    """relative to the rated load"""
 
 
 class Classes(Fragment):
-    """What the crane is classed as, and used for."""
+    """Classification and use of the crane."""
 
     group: Literal["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"] | None = None
-    """declared group of the crane; compared with that of its use"""
+    """declared crane group; compared with the required group"""
     cycles: Annotated[
-        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only where it is given")
+        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only if it is given")
     ] = None
-    """hoisting cycles in the life; with the spectrum they give the group of its use"""
+    """working cycles in the service life; with the spectrum they determine the required group"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
-    """loads over the life; the rated load always, when left out"""
+    """load spectrum of the service life; default: always the rated load"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -253,26 +253,26 @@ class Classes(Fragment):
         known = [share for share in shares if share is not None]
         if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
             reason = f"the shares add up to {sum(known):.3g}"
-            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
+            yield Conflict(("load_spectrum",), reason, "correct them to a sum of 1, so that every cycle has a load")
 
 
 class SlewingChecks(CheckSettings):
     """Limits of the checks of a slewing crane."""
 
     starting_reserve: Annotated[PositiveRatio, Limit()] = 1.1
-    """least starting torque over the torque of steady slewing"""
+    """minimum starting torque / steady slewing torque"""
     start_time: Annotated[PositiveTime, Limit()] = 10.0
-    """longest start"""
+    """maximum starting time"""
     least_start_time: Annotated[PositiveTime, Limit()] = 1.0
-    """shortest start: shorter ones throw the load about"""
+    """minimum starting time, to limit the load sway"""
     brake_time: Annotated[PositiveTime, Limit()] = 10.0
-    """longest stop"""
+    """maximum stopping time"""
     least_brake_time: Annotated[PositiveTime, Limit()] = 1.0
-    """shortest stop: shorter ones throw the load about"""
+    """minimum stopping time, to limit the load sway"""
     holding_reserve: Annotated[PositiveRatio, Limit()] = 1.0
-    """least torque of the started motor, and of the closed brake, over that of the largest wind"""
+    """minimum ratio of starting torque, and of brake torque, to the torque of the maximum wind"""
     sway: Annotated[SwayAngle, Limit()] = 0.174532925199433
-    """largest angle of the load's rope, radial or tangential; 10 deg when left out"""
+    """maximum hoist rope angle, radial or tangential; 10 deg when left out"""
 
 
 class SlewingScene(TransientScene):
@@ -286,7 +286,7 @@ class SlewingScene(TransientScene):
 
 
 class Slew(SlewingScene):
-    """A whole rotation: start, steady slewing, stop."""
+    """A complete slewing motion: start, steady slewing, stop."""
 
     type: Literal["slew"] = "slew"
 
@@ -301,9 +301,9 @@ class SlewingCrane(MachineSpec):
     type: Literal["slewing"]
     """of the crane"""
     load: Load | None = None
-    """what hangs on the jib; not needed with `inertia`, but without it the sway is not computed"""
+    """load on the jib; optional with `inertia`, but needed for the sway"""
     slewing_part: Body | None = None
-    """platform, column or portal with what stands on it"""
+    """platform, column or portal with its equipment"""
     counterweight: Body | None = None
     """the counterweight"""
     jib: Jib | None = None
@@ -311,14 +311,14 @@ class SlewingCrane(MachineSpec):
     inertia: Annotated[PositiveInertia | None, OneOf("slewing_part, counterweight, jib")] = Field(
         default=None, examples=["60000 kg*m^2"]
     )
-    """of all that slews about the axis, the load at its radius included, instead of the parts"""
+    """of all slewing parts, the load at its radius included, instead of the parts"""
     speed: PositiveAngularSpeed = Field(examples=["2 rpm"])
     """of slewing"""
     friction: Torque
     """torque of all bearings about the slewing axis"""
     wind: Wind = Wind()
     """about the slewing axis; none when left out"""
-    slope: Annotated[Slope, Absent("the axis stands upright; `friction` has what a level crane resists with")] = 0.0
+    slope: Annotated[Slope, Absent("vertical axis; `friction` contains the resistance of a level crane")] = 0.0
     """of the slewing axis from the vertical; needs the masses"""
     motor: SlewMotor
     """the slewing motors"""
@@ -327,17 +327,17 @@ class SlewingCrane(MachineSpec):
     brake: SlewBrake | None = None
     """the slewing brake; needed to check stops"""
     cycle: Cycle
-    """what the crane does again and again"""
+    """working cycle"""
     handbook: Handbook = Handbook()
-    """inputs of the handbook's formulas alone"""
+    """inputs of the handbook formulas only"""
     ring: Annotated[Ring, Also("slewing_ring")] = Ring()
     """the slewing ring"""
     classes: Classes = Field(default=Classes(), alias="class")
-    """what the crane is classed as"""
+    """classification of the crane"""
     checks: SlewingChecks = SlewingChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; a rotation with the rated load, and one with the hook block alone, when left out"""
+    """load cases; default: a rotation with the rated load, and one with the hook block alone, when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -349,12 +349,12 @@ class SlewingCrane(MachineSpec):
                 reason = "give `inertia` or the parts, not both: they state the same quantity"
                 yield Conflict((key,), reason, f"delete `{key}`")
             if given.number("slope"):
-                reason = "the weights that turn on a slope are not known from an inertia"
+                reason = "an inertia does not determine the weights on a slope"
                 yield Conflict(("slope",), reason, "give `load`, `slewing_part`, `counterweight` and `jib` instead")
         elif not parts:
-            yield given.missing("inertia", "give `inertia`, or the parts that slew: `slewing_part`, `jib` ...")
+            yield given.missing("inertia", "give `inertia`, or the slewing parts: `slewing_part`, `jib` ...")
         elif "load" not in given:
-            yield given.missing("load", "the load slews with the parts")
+            yield given.missing("load", "the load is one of the slewing parts")
         yield from _nothing_turns(given)
         yield from _load_too_heavy(given)
         yield from _nothing_starts(given)
@@ -380,9 +380,9 @@ def _load_too_heavy(given: Given) -> Iterator[Conflict]:
         return
     own = (mass + (block or 0.0)) * radius**2
     if own >= whole:
-        reason = f"the load alone has {units.show(own, units.INERTIA)} about the axis, and it is a part of the whole"
+        reason = f"the load alone has {units.show(own, units.INERTIA)} about the axis and is part of the total inertia"
         yield Conflict(
-            ("inertia",), reason, f"write more than `{units.show(1.01 * own, units.INERTIA)}`, structure too"
+            ("inertia",), reason, f"write more than `{units.show(1.01 * own, units.INERTIA)}`, structure included"
         )
 
 
@@ -398,7 +398,9 @@ def _nothing_turns(given: Given) -> Iterator[Conflict]:
         mass, radius, own = (part.number(name) for name in ("mass", "radius", "inertia"))
         if mass is None or radius is None or own or mass * radius > 0 or ("inertia" in part and own is None):
             return
-    reason = "the parts have no inertia about the slewing axis: their centres of mass lie on it, or they weigh nothing"
+    reason = (
+        "the parts have no inertia about the slewing axis: their centres of mass are on the axis, or their masses are 0"
+    )
     yield Conflict((parts[0],), reason, "add its `inertia: 5000 kg*m^2`, or the `jib`")
 
 
@@ -409,5 +411,5 @@ def _nothing_starts(given: Given) -> Iterator[Conflict]:
         return
     by_torque = any(key in motor for key in ("mean_starting_torque", "largest_starting_torque", "curve"))
     if not by_torque and "start_time" not in cycle and "start_angle" not in cycle:
-        reason = "the start is not defined: the motor has no starting torque, and `cycle` no `start_time`"
+        reason = "the start is not defined: the motor has no starting torque, and `cycle` has no `start_time`"
         yield Conflict(("motor",), reason, "add `mean_starting_torque: 37 N*m`, or `start_time: 8 s` to `cycle`")

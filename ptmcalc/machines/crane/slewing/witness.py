@@ -139,11 +139,11 @@ class _Crane:
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
-    """A whole rotation, twice.
+    """A complete slewing motion, computed twice.
 
-    **Range** as the rotation piece by piece; a brake that holds the crane it has stopped.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first; extremes
-    by a parabola through the largest of 40 samples of a step.
+    **Range** as `slew`; a brake that holds the stopped crane.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first;
+    extremes by a parabola through the maximum of 40 samples per step.
     **Source** the load's equation with the rope as a constraint; Hairer, Nørsett and Wanner, Solving Ordinary
     Differential Equations I, 2nd ed.
     """

@@ -21,7 +21,7 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             units.RATIO,
             lambda spec: 0.98,
             lambda spec: Interval(0.97, 0.985),
-            "sheaves on rolling bearings: 0.98 to 0.985; plain ones 0.95 to 0.97",
+            "sheaves on rolling bearings 0.98 to 0.985, on plain bearings 0.95 to 0.97",
         )
     if isinstance(spec, RackStacker) and any(scene.type == "rail" for scene in spec.all_scenes):
         yield Assumption(
@@ -29,7 +29,7 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             units.FREQUENCY,
             lambda spec: 10.0,
             lambda spec: Interval(5.0, 20.0),
-            "cranes on their wheels and rails swing vertically at 5 to 20 Hz",
+            "cranes on wheels and rails oscillate vertically at 5 to 20 Hz",
         )
     yield from _of_the_hoist(spec)
     yield from _of_the_column(spec)
@@ -58,7 +58,7 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             units.TORQUE,
             lambda spec: 0.0,
             lambda spec: Interval(0.0, tenth),
-            "bearings of a column that turns take up to a tenth of the driving torque",
+            "bearings of a rotating mast consume up to 10 % of the driving torque",
         )
 
 
@@ -75,7 +75,7 @@ def _resistance(spec: Stacker, key: str) -> Assumption[Stacker]:
         units.FORCE,
         lambda spec: 0.0,
         lambda spec: Interval(0.0, 0.01 * weight),
-        "steel wheels with rolling bearings on rails take 0.5 to 1 % of the weight",
+        "resistance of steel wheels with rolling bearings: 0.5 to 1 % of the weight",
     )
 
 
@@ -106,7 +106,7 @@ def _of_the_hoist(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             units.FORCE,
             lambda spec: weight,
             lambda spec: Interval(weight, 2.5 * weight),
-            "motors of hoists pull 1 to 2.5 times what the rated load takes before they stall",
+            "the stall force of hoist motors is 1 to 2.5 times the force of the rated load",
         )
 
 
@@ -121,7 +121,7 @@ def _of_the_column(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             units.SECOND_MOMENT,
             lambda spec: second,
             lambda spec: Interval(second / 2, second),
-            "boxes and frames of columns are as stiff across as along, or down to half of that",
+            "box and frame masts: stiffness across the aisle 0.5 to 1 times that along the aisle",
         )
     if modulus is not None:
         yield Assumption(
@@ -129,7 +129,7 @@ def _of_the_column(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             units.SECTION_MODULUS,
             lambda spec: modulus,
             lambda spec: Interval(modulus / 2, modulus),
-            "boxes and frames of columns are as strong across as along, or down to half of that",
+            "box and frame masts: strength across the aisle 0.5 to 1 times that along the aisle",
         )
     if modulus is not None and second is not None:
         least = modulus**2 / second  # of two flanges, all of their area at the outer edges
@@ -138,7 +138,7 @@ def _of_the_column(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             units.AREA,
             lambda spec: 1.6 * least,
             lambda spec: Interval(least, 3 * least),
-            "W^2/J is the least area of any section with both; 1.6 of it is that of a box, 3 of it that of a plate",
+            "W^2/J is the minimum area of a section with both; 1.6 times that area for a box, 3 times for a plate",
         )
 
 
@@ -151,7 +151,7 @@ def _of_the_base(spec: RackStacker) -> Iterator[Assumption[Stacker]]:
             units.SPAN,
             lambda spec: long / 2,
             lambda spec: Interval(0.45 * long, 0.55 * long),
-            "bases carry column and drives in the middle, to a twentieth of their wheel base",
+            "mast and drives are in the middle of the base, within 5 % of the wheel base",
         )
 
 
@@ -166,7 +166,7 @@ def _foot(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             units.SPAN,
             lambda spec: 0.0,
             lambda spec: Interval(0.0, highest),
-            "bases carry a column, or it ends, up to half a metre above the rail or floor",
+            "the mast starts, or ends, up to 0.5 m above the rail or floor",
         )
 
 
@@ -191,7 +191,7 @@ def _of_a_drive(key: str, drive: TravelDrive) -> Iterator[Assumption[Stacker]]:
         units.INERTIA,
         lambda spec: 0.15 * rotor,
         lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
-        "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+        "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
     )
 
 

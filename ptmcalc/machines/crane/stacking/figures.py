@@ -15,27 +15,27 @@ def _window(spec: Stacker, scene: SceneReport) -> Marks:
     thresholds = (Threshold(half, "window of the fork"), Threshold(-half, "window of the fork"))
     loads = {load.info.name: load.estimate.value for load in scene.loads}
     stands, settles = loads.get("brake_time"), loads.get("settling_time")
-    moments: tuple[Moment, ...] = () if stands is None else (Moment(stands, "the crane stands"),)
+    moments: tuple[Moment, ...] = () if stands is None else (Moment(stands, "crane at standstill"),)
     if stands is not None and settles:
-        moments += (Moment(stands + settles, "the tip stays in the window"),)
+        moments += (Moment(stands + settles, "mast tip within the positioning tolerance"),)
     return Marks(thresholds=thresholds, moments=moments)
 
 
 FIGURES = (
     Figure(
         "mast_tip",
-        "Tip of the mast over time, with the window of the fork",
+        "Mast tip over time, with the positioning tolerance",
         _DRIVEN,
-        (Course("mast_deflection_max", title="swing of the tip"),),
-        "swing of the tip",
+        (Course("mast_deflection_max", title="deflection of the tip"),),
+        "deflection of the tip",
         moments=(("start_time", "full speed"),),
         marks=_window,
     ),
     Figure(
         "mast_force",
-        "Force of the column over time",
+        "Mast force over time",
         _DRIVEN,
-        (Course("mast_force_max", title="force of the column"),),
+        (Course("mast_force_max", title="mast force"),),
         "force",
     ),
     Figure(
@@ -44,7 +44,7 @@ FIGURES = (
         ("obstacle",),
         (
             Course("contact_force", title="force on the obstacle"),
-            Course("collision_force", title="force of the column"),
+            Course("collision_force", title="mast force"),
         ),
         "force",
     ),

@@ -34,25 +34,25 @@ SCENES: frozenset[type[Scene]] = frozenset({HoistScene, Stand, Start, Brake, Obs
 
 
 class OverheadStacker(Stacker):
-    """A stacker crane on a bridge: its column hangs from the trolley and turns about its own axis."""
+    """An overhead stacker crane: its mast is suspended from the trolley and rotates about its own axis."""
 
     type: Literal["overhead_stacker"]
     bridge: Bridge
-    """that carries the trolley"""
+    """bridge of the trolley"""
     trolley: Trolley
-    """that carries the column"""
+    """trolley of the mast"""
     bridge_travel: Travel | None = None
-    """what moves the bridge"""
+    """travel of the bridge"""
     trolley_travel: Travel | None = None
-    """what moves the trolley"""
+    """travel of the trolley"""
     rotation: Rotation | None = None
-    """what turns the column"""
+    """rotation of the mast"""
     obstacle: Obstacle | None = None
-    """what the column may run into; needed for an `obstacle`"""
+    """obstacle in the path of the mast; needed for a scene `obstacle`"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; when left out: hoisting up and down, standing, a start and a stop of every
-    mechanism, and what the file has the data of: an obstacle, buffers, a caught fork; each with its
-    load and empty where either may be worse"""
+    """load cases; default: hoisting up and down, standstill, a start and a stop of every
+    mechanism, and scenes for which the file gives data: obstacle, buffers, snagged fork; each with its
+    load and empty if either may be worse"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -62,7 +62,7 @@ class OverheadStacker(Stacker):
         yield from _girders(given)
         column = given.block("column")
         if column is not None and "top_guide" in column:
-            reason = "the column of an overhead stacker hangs: its far end is free"
+            reason = "the mast of an overhead stacker is suspended: its tip is free"
             yield Conflict(("column", "top_guide"), reason, "delete `top_guide`, or write `type: rack_stacker`")
 
     @property
@@ -116,9 +116,9 @@ def _girders(given: Given) -> Iterator[Conflict]:
         return
     for key in ("girder_vertical", "girder_horizontal"):
         if "stiffness" in column and key in bridge:
-            reason = "it is part of the `stiffness` of the column"
-            yield Conflict(("bridge", key), reason, f"delete `{key}`, or the `stiffness` of the column")
+            reason = "it is part of the `stiffness` of the mast"
+            yield Conflict(("bridge", key), reason, f"delete `{key}`, or the `stiffness` of the mast")
         if "stiffness" not in column and key not in bridge:
             example = "120000 cm^4" if key == "girder_vertical" else "16000 cm^4"
-            reason = f"the girders bend under the column: `{key}` of one girder is missing"
-            yield Conflict(("bridge",), reason, f"add `{key}: {example}`, or give the `stiffness` of the column")
+            reason = f"the girders bend under the mast: `{key}` of one girder is missing"
+            yield Conflict(("bridge",), reason, f"add `{key}: {example}`, or give the `stiffness` of the mast")

@@ -38,19 +38,19 @@ SCENES: frozenset[type[Scene]] = frozenset(
 
 
 class RackStacker(Stacker):
-    """A stacker crane in the aisle between racks: its column stands on a base and is guided at its head."""
+    """A rack stacker crane (storage/retrieval machine): its mast is mounted on a base and guided at its head."""
 
     type: Literal["rack_stacker"]
     base: Base
-    """the bottom carriage"""
+    """the base (bottom frame)"""
     travel: Travel
-    """what moves it along the aisle"""
+    """travel along the aisle"""
     rail: Rail = Rail()
-    """on which it runs"""
+    """rail of the aisle"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; when left out: hoisting up and down, standing, a start and a stop, and what the file
-    has the data of: buffers, a fork that pushes or is caught, an uneven rail, a safety gear; each with its load and
-    empty where either may be worse"""
+    """load cases; default: hoisting up and down, standstill, a start and a stop, and scenes for which the file
+    gives data: buffers, fork thrust, snagged fork, uneven rail, safety gear; each with its load and
+    empty if either may be worse"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -64,8 +64,8 @@ class RackStacker(Stacker):
             for key, most in (("step", wheel / 2), ("gap", wheel)):
                 size = rail.number(key)
                 if size is not None and size >= most:
-                    reason = f"no wheel of {units.show(wheel, units.LENGTH)} rolls over it"
-                    yield Conflict(("rail", key), reason, f"write `{key}: 1 mm`, or what the rail has")
+                    reason = f"a wheel of {units.show(wheel, units.LENGTH)} cannot roll over it"
+                    yield Conflict(("rail", key), reason, f"write `{key}: 1 mm`, or the value of the rail")
         wheels = base.number("wheel_base")
         for key in ("column", "centre"):
             place = base.number(key)

@@ -93,33 +93,49 @@ def _marks(combination: str, load: str, scene: type[Scene]) -> Relation:
         (load,),
         lambda spec, scene, loads: loads[load],
         frozenset({scene}),
-        "the load of a combination is that of the event that marks it",
+        "the load of a combination is that of its event",
     )
 
 
 RELATIONS: tuple[Relation, ...] = (
     ordered("roller_reaction", "roller_load", _HOISTS, "a roller carries at most the reaction of its set"),
-    computed("rope_safety", ("rope_force",), _rope_safety, _HOISTS, "rope safety is breaking force over pull"),
+    computed(
+        "rope_safety",
+        ("rope_force",),
+        _rope_safety,
+        _HOISTS,
+        "the rope safety factor is the breaking force divided by the rope pull",
+    ),
     computed("period", (_FIRST,), _period, _SWINGS, "the period is that of the first natural frequency"),
     computed(
         "mast_force_max",
         ("mast_deflection_max",),
         _swing_force,
         _DRIVEN,
-        "the force of the column is its stiffness times its swing",
+        "the mast force is the product of mast stiffness and dynamic deflection",
     ),
     computed(
         "collision_force",
         ("collision_deflection",),
         _blow_force,
         _HITS,
-        "the force of the column is its stiffness times its deflection",
+        "the mast force is the product of mast stiffness and deflection",
     ),
     computed(
-        "fork_caught_factor", ("rope_force_caught",), _caught_factor, _CAUGHT, "the factor is rope force over weight"
+        "fork_caught_factor",
+        ("rope_force_caught",),
+        _caught_factor,
+        _CAUGHT,
+        "the factor is the rope force divided by the weight",
     ),
     computed("wheel_force", ("phi4",), _wheel_force, _ROLLS, "the load of a wheel is phi4 times the static one"),
-    computed("safety_gear_factor", ("safety_gear_force",), _gear_factor, _FALLS, "the factor is force over weight"),
+    computed(
+        "safety_gear_factor",
+        ("safety_gear_force",),
+        _gear_factor,
+        _FALLS,
+        "the factor is the force divided by the weight",
+    ),
 )
 
 

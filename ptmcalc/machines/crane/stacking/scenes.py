@@ -21,10 +21,10 @@ class StackerScene(Scene):
 
     load: Literal["full", "empty"] = "full"
     """the rated load on the fork, or nothing"""
-    height: Annotated[Span | None, Setting("as far from where the column is held as it comes, where it bends most")] = (
+    height: Annotated[Span | None, Setting("the farthest position from the mast support, with the largest bending")] = (
         None
     )
-    """of the carriage above the floor; as far from where the column is held as it comes when left out"""
+    """of the carriage above the floor; default: the farthest position from the mast support"""
 
     def default_name(self) -> str:
         return "_".join((*self.words, "loaded" if self.load == "full" else self.load))
@@ -36,7 +36,7 @@ class StackerScene(Scene):
 
 
 class HoistScene(StackerScene):
-    """The carriage is set in motion, or comes to rest at the end of lowering."""
+    """A start of the carriage, or its stop at the end of lowering."""
 
     type: Literal["hoist"] = "hoist"
     direction: Literal["up", "down"] = "up"
@@ -48,7 +48,7 @@ class HoistScene(StackerScene):
 
 
 class Stand(StackerScene):
-    """It stands: weights alone."""
+    """Standstill: weights alone."""
 
     type: Literal["stand"] = "stand"
 
@@ -57,7 +57,7 @@ class MechanismScene(StackerScene):
     """Base of what happens to a mechanism that travels."""
 
     mechanism: Mechanism | None = None
-    """what moves; the bridge of an overhead stacker when left out, the base of a rack stacker always"""
+    """moving mechanism; default: the bridge of an overhead stacker, the base of a rack stacker"""
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -68,7 +68,7 @@ class DrivenScene(StackerScene, TransientScene):
     """Base of starts and stops, of any mechanism."""
 
     mechanism: Literal["bridge", "trolley", "rotation", "travel"] | None = None
-    """what moves; the bridge of an overhead stacker when left out, the base of a rack stacker always"""
+    """moving mechanism; default: the bridge of an overhead stacker, the base of a rack stacker"""
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -76,39 +76,39 @@ class DrivenScene(StackerScene, TransientScene):
 
 
 class Start(DrivenScene):
-    """A mechanism is brought to its speed."""
+    """A start of a mechanism to its speed."""
 
     type: Literal["start"] = "start"
 
 
 class Brake(DrivenScene):
-    """A mechanism is brought to rest from its speed, and held."""
+    """A stop of a mechanism from its speed to permanent standstill."""
 
     type: Literal["brake"] = "brake"
     speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
-    """of full speed before the stop: 0.1 for one from creep speed"""
+    """initial speed / full speed: 0.1 for a stop from creep speed"""
 
 
 class ObstacleScene(MechanismScene, TransientScene):
-    """The free end of the column of an overhead stacker runs into an obstacle."""
+    """The mast tip of an overhead stacker collides with an obstacle."""
 
     type: Literal["obstacle"] = "obstacle"
     speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
     """of full speed"""
     drive: Literal["off", "on"] = "off"
-    """whether the drive still pushes"""
+    """whether the drive still acts during the impact"""
     brake: Literal["on", "off"] = "on"
-    """whether the brake acts from the first touch; never while the drive is on"""
+    """whether the brake acts from first contact; never while the drive is on"""
 
 
 class BufferScene(MechanismScene):
-    """It runs onto its buffers."""
+    """A collision with the buffers."""
 
     type: Literal["buffer"] = "buffer"
     speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
-    """of full speed at which they are hit; 0.7 (EN 13001-2) or 0.5 with limit switches that have been passed"""
+    """impact speed / full speed; 0.7 (EN 13001-2), or 0.5 with limit switches"""
     drive: Literal["off", "on"] = "off"
-    """whether the drive still pushes"""
+    """whether the drive still acts during the impact"""
 
 
 class ForkPush(StackerScene, TransientScene):
@@ -118,7 +118,7 @@ class ForkPush(StackerScene, TransientScene):
 
 
 class ForkCaught(StackerScene, TransientScene):
-    """The fork is caught by the rack while the carriage is hoisted."""
+    """The fork snags in the rack while the carriage is hoisted."""
 
     type: Literal["fork_caught"] = "fork_caught"
     speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
@@ -126,7 +126,7 @@ class ForkCaught(StackerScene, TransientScene):
 
 
 class RailScene(StackerScene, TransientScene):
-    """A rack stacker runs over what is uneven in its rail."""
+    """A rack stacker travels over uneven rail."""
 
     type: Literal["rail"] = "rail"
     speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
@@ -134,7 +134,7 @@ class RailScene(StackerScene, TransientScene):
 
 
 class SafetyGearScene(StackerScene):
-    """The ropes fail while the carriage sinks, and the safety gear catches it."""
+    """The ropes fail while the carriage lowers, and the safety gear stops it."""
 
     type: Literal["safety_gear"] = "safety_gear"
 

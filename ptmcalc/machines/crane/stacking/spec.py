@@ -22,21 +22,21 @@ class Stacker(MachineSpec):
     load: PositiveMass
     """rated load with its pallet"""
     column: Annotated[Column, Also("mast")]
-    """along which the carriage climbs"""
+    """mast, guide of the carriage"""
     carriage: Carriage
     """with the fork"""
     cab: Cab | None = None
-    """that climbs with the carriage; none when left out"""
+    """cab on the carriage; none when left out"""
     hoisting: Hoisting
-    """what lifts the carriage"""
+    """hoist of the carriage"""
     fork: Fork | None = None
     """the telescopic fork; needed for a `fork_push`"""
     rack: Rack = Rack()
     """the rack at the fork; rigid when left out"""
     safety_gear: SafetyGear | None = None
-    """what catches the carriage when its ropes fail; needed for a `safety_gear`"""
+    """safety gear of the carriage; needed for a scene `safety_gear`"""
     settling: Settling = Settling()
-    """how still the column must be before the fork may go out"""
+    """positioning tolerance of the mast before the fork extends"""
     checks: StackerChecks = StackerChecks()
     """limits, and checks switched off by code"""
 
@@ -59,7 +59,7 @@ def fork_without_a_rack(given: Given) -> Iterator[Conflict]:
     if "fork" in given and rack is not None and "stiffness_push" not in rack:
         where: tuple[str, ...] = ("rack",) if "rack" in given else ()
         hint = "add `stiffness_push: 500 kN/m` to `rack`" if where else "add `rack: {stiffness_push: 500 kN/m}`"
-        yield Conflict(where, "a `fork` runs against a rack: its `stiffness_push` is missing", hint)
+        yield Conflict(where, "a `fork` pushes against a rack: its `stiffness_push` is missing", hint)
 
 
 def ends_of_column(given: Given) -> tuple[float, float] | None:
@@ -90,7 +90,7 @@ def carriage_off_the_column(given: Given) -> Iterator[Conflict]:
         wrong = list(_off(path, height, foot, head))
         yield from wrong
         if height is not None and not wrong and least < most and not least <= height <= most:
-            reason = f"the carriage does not come there: its path is from {_m(least)} to {_m(most)}"
+            reason = f"the carriage cannot reach this height: its path is from {_m(least)} to {_m(most)}"
             yield Conflict(path, reason, f"write `height: {_m(most if height > most else least)}`")
 
 
@@ -103,11 +103,11 @@ def _off(path: tuple[str | int, ...], height: float | None, foot: float, head: f
         return
     key = path[-1]
     if height < foot:
-        below = "floor" if foot == 0 else "column"
-        reason = f"the carriage is below the {below}: the column begins at {_m(foot)}"
+        below = "floor" if foot == 0 else "mast"
+        reason = f"the carriage is below the {below}: the mast starts at {_m(foot)}"
         yield Conflict(path, reason, f"write `{key}: {_m(foot)}` or more")
     else:
-        reason = f"the carriage is above the column, whose head is at {_m(head)}"
+        reason = f"the carriage is above the mast head at {_m(head)}"
         yield Conflict(path, reason, f"write `{key}: {_m(head)}` or less")
 
 
@@ -204,4 +204,4 @@ def _mechanism(given: Given, scene: Given, what: str, here: tuple[str | int, ...
     pushes = what == "start" or (what in ("obstacle", "buffer") and scene.word("drive") == "on")
     if pushes and not any(name in block for name in ("acceleration", "driving_force", "drive")):
         hint = f"add `driving_force: 8 kN` to `{key}`, or its `acceleration`"
-        yield Conflict(here, f"nothing starts the {word}", hint)
+        yield Conflict(here, f"the {word} has no drive", hint)

@@ -28,7 +28,7 @@ def travels(spec: Stacker, scene: StackerScene) -> Criterion | None:
     """
     if not turns(spec, scene):
         return None
-    return Criterion("ω", math.inf, 1.0, "the column turns about its own axis and does not bend", "what moves")
+    return Criterion("ω", math.inf, 1.0, "the mast rotates about its own axis and does not bend", "what moves")
 
 
 def evenly(spec: Stacker, scene: StackerScene) -> Criterion | None:
@@ -40,5 +40,5 @@ def evenly(spec: Stacker, scene: StackerScene) -> Criterion | None:
     """
     if not model.uneven(spec, scene):
         return travels(spec, scene)
-    reason = "the start follows a motor's curve; columns are computed under an even force or a ramp"
+    reason = "the start follows a motor curve; a mast is computed under a constant force or a ramp"
     return Criterion("ΔM/M", math.inf, 1.0, reason, "the motor's curve")

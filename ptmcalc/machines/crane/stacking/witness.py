@@ -22,10 +22,10 @@ from ptmcalc.witness import lumped, lumped_cost, two_runs
 
 
 def caught(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
-    """Largest forces of rope and rack as the rack catches the fork.
+    """Maximum forces of rope and rack when the fork snags in the rack.
 
     **Range** as the exact run: no damping.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first.
     **Source** Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     case = catch_of(spec, scene).without(
@@ -37,7 +37,7 @@ def caught(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int
 
 
 def pushed(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> Result:
-    """Largest force of the fork on the rack it is pushed against, with errors as `caught`."""
+    """Maximum fork thrust on the rack, with errors as `caught`."""
     case = push_of(spec, scene)
     found = _largest(case.train(), scene.window_factor * case.window(), level, {"fork_push_force": RACK})
     return Result(with_derived(spec, scene, found.loads), work=found.work, window=found.window)
@@ -71,7 +71,7 @@ def yields(spec: Stacker, scene: ForkPush) -> Criterion | None:
     **Source** the file.
     """
     if math.isinf(push_of(spec, scene).support):
-        return Criterion("column", 1.0, 1.0, "a rigid column: one spring, whose force is a closed form", "the file")
+        return Criterion("column", 1.0, 1.0, "a rigid mast: one spring with a closed-form force", "the file")
     return None
 
 

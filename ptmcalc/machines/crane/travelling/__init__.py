@@ -35,7 +35,7 @@ def inspect(spec: Travelling) -> Iterator[Finding]:
         if abs(given / spec.speed - 1) > _SPEED_TOLERANCE:
             yield Finding(
                 "SPC201",
-                f"motor, gear and wheels travel at {units.show(given, units.SPEED)}, the file states"
+                f"motor, gear and wheels result in a travel speed of {units.show(given, units.SPEED)}, the file states"
                 f" {units.show(spec.speed, units.SPEED)}",
                 ("speed",),
                 "correct the speed, the ratio, the wheels or the motor",
@@ -64,7 +64,7 @@ def _plays(spec: Travelling) -> Iterator[Finding]:
             "SPC201",
             f"{units.show(guide.clearance, units.LENGTH)} of clearance is below the"
             f" minimum of EN 1991-3 with {guide.type}:"
-            f" the angle of skewing is computed with {units.show(least, units.LENGTH)}",
+            f" the skewing angle is computed with {units.show(least, units.LENGTH)}",
             ("guide", "clearance"),
             f"write `clearance: {units.show(least / 0.75, units.LENGTH)}` or more, or another `edition`",
         )

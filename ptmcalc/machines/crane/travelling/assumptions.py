@@ -47,7 +47,7 @@ def _of_the_masses(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             units.SPAN,
             lambda spec: 0.0,
             lambda spec: Interval(0.0, (0.5 if legs else 0.05) * span),
-            "girders are a fifteenth of the span high; portals about as high as half their span",
+            "girder height about span/15; portal height about half the span",
         )
     gauge, portal = spec.gauge, spec.travels == "gantry"
     yield Assumption(
@@ -55,7 +55,7 @@ def _of_the_masses(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         units.SPAN,
         lambda spec: 0.0,
         lambda spec: Interval(0.0, (0.6 if portal else 0.1 if spec.bridge is not None else 0.5) * gauge),
-        "trolleys stand on the girders; a trolley's own centre is below half its gauge above its rails",
+        "trolleys run on the girders; the centre of gravity of a trolley is at most half its gauge above its rails",
     )
     diameter = spec.wheels.diameter
     disc = 0.5 * _STEEL * math.pi * (diameter / 2) ** 4 * 0.25 * diameter
@@ -64,7 +64,7 @@ def _of_the_masses(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         units.INERTIA,
         lambda spec: 0.0,
         lambda spec: Interval(0.0, 1.2 * disc),
-        "steel discs a quarter of their diameter wide with axle and gear wheel",
+        "steel discs with a width of a quarter of their diameter, with axle and gear wheel",
     )
     if spec.wind is not None:
         area = 1.2 * (load / 1000) ** (2 / 3)
@@ -73,7 +73,7 @@ def _of_the_masses(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             units.FACE,
             lambda spec: 0.0,
             lambda spec: Interval(0.0, 1.5 * area),
-            "a cube of water has 1 m^2 for a load of 1 t; crane rules ask 1.2 m^2/t of small loads, less of large ones",
+            "a cube of water: 1 m^2 for 1 t; crane rules require 1.2 m^2/t for small loads, less for large loads",
         )
         pressure = spec.wind.pressure
         yield Assumption(
@@ -81,7 +81,7 @@ def _of_the_masses(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             units.PRESSURE,
             lambda spec: pressure,
             lambda spec: Interval(pressure, max(1.5 * pressure, 250.0)),
-            "EN 13001-2, ISO 4302: 125 Pa in light, 250 Pa in normal wind in service",
+            "EN 13001-2, ISO 4302: 125 Pa (light) and 250 Pa (normal) in-service wind",
         )
 
 
@@ -107,14 +107,14 @@ def _of_the_rails(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             units.RATIO,
             lambda spec: 0.015,
             lambda spec: Interval(0.01, 0.02),
-            "wheels on rolling bearings 0.015 to 0.02; plain ones 0.08 to 0.1",
+            "wheels on rolling bearings 0.015 to 0.02, on plain bearings 0.08 to 0.1",
         )
         yield Assumption(
             ("rolling", "flange_factor"),
             units.RATIO,
             lambda spec: 1.5,
             lambda spec: Interval(1.2, 1.8),
-            "flanges of cylindrical wheels on rolling bearings 1.5, of conical ones 1.2; plain bearings up to 2.5",
+            "flanged cylindrical wheels on rolling bearings 1.5, conical wheels 1.2; plain bearings up to 2.5",
         )
     if any(scene.type == "rail_step" for scene in spec.all_scenes):
         yield Assumption(
@@ -122,7 +122,7 @@ def _of_the_rails(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             units.FREQUENCY,
             lambda spec: 10.0,
             lambda spec: Interval(5.0, 20.0),
-            "cranes on their wheels and rails swing vertically at 5 to 20 Hz; bridges of large span below",
+            "cranes on wheels and rails oscillate vertically at 5 to 20 Hz; lower for bridges of large span",
         )
     if spec.guide is not None:
         share, head = skew.WEAR_SHARE[spec.guide.type], spec.rail.head
@@ -132,8 +132,8 @@ def _of_the_rails(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             units.LENGTH,
             lambda spec: share * (head or _HEAD),
             lambda spec: Interval(share * head, _WIDE * share * head) if head is not None else wide,
-            "EN 13001-2, EN 1991-3: at least 0.1 of the width of the rail's head with flanges, 0.03 with rollers;"
-            " heads are 45 to 100 mm wide",
+            "EN 13001-2, EN 1991-3: at least 0.1 of the rail head width with flanges, 0.03 with rollers;"
+            " rail heads are 45 to 100 mm wide",
         )
 
 
@@ -144,7 +144,7 @@ def _of_the_drive(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         units.RATIO,
         lambda spec: 0.9,
         lambda spec: Interval(1.0, 1.0) if ratio == 1 else Interval(0.85, 0.95),
-        "two to three stages of helical or bevel gears, an open one perhaps among them",
+        "two to three stages of helical or bevel gears, possibly one open stage",
     )
     yield Assumption(
         ("drive", "gear", "reverse_efficiency"),
@@ -159,5 +159,5 @@ def _of_the_drive(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         units.INERTIA,
         lambda spec: 0.15 * rotor,
         lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
-        "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+        "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
     )

@@ -3,12 +3,12 @@
 from ptmcalc.contract.figure import Course, Figure
 
 _MOVING = ("start", "brake", "hoist_while_travelling")
-_MOMENTS = (("start_time", "full speed"), ("brake_time", "the crane stands"))
+_MOMENTS = (("start_time", "full speed"), ("brake_time", "crane at standstill"))
 
 FIGURES = (
     Figure(
         "sway",
-        "Angle of the load over time",
+        "Sway angle of the load over time",
         _MOVING,
         (Course("sway_angle_max", ("sway_residual",), "angle of the load"),),
         "angle of the rope",
@@ -16,9 +16,9 @@ FIGURES = (
     ),
     Figure(
         "pull",
-        "Horizontal pull of the load over time",
+        "Horizontal force of the load over time",
         _MOVING,
-        (Course("horizontal_force", title="pull of the load on the crane"),),
+        (Course("horizontal_force", title="force of the load on the crane"),),
         "horizontal force",
         moments=_MOMENTS,
     ),

@@ -31,19 +31,19 @@ def _storm(spec: Travelling, scene: TravelScene, loads: Numbers) -> float:
 
 
 RELATIONS: tuple[Relation, ...] = (
-    ordered("wheel_load_max", "wheel_load_min", _ON_WHEELS, "the largest load of a wheel is at least the smallest one"),
-    ordered("corner_load_max", "corner_load_min", frozenset({Run}), "largest load of a corner >= smallest load"),
-    ordered("skid_reserve", "skid_reserve_min", _MOVES, "the least adhesion of all wheels is at most that of a corner"),
-    ordered("sway_angle_max", "sway_residual", _MOVES, "the swing that stays is within the largest angle"),
+    ordered("wheel_load_max", "wheel_load_min", _ON_WHEELS, "the maximum wheel load is at least the minimum"),
+    ordered("corner_load_max", "corner_load_min", frozenset({Run}), "the maximum corner load is at least the minimum"),
+    ordered("skid_reserve", "skid_reserve_min", _MOVES, "the minimum adhesion reserve is at most that of a corner"),
+    ordered("sway_angle_max", "sway_residual", _MOVES, "the residual sway is at most the maximum sway angle"),
     computed(
         "drive_utilisation", ("torque_motor_max",), _utilisation, _MOVES,
-        "the drive is used by the torque of its ramp over its mean starting torque",
+        "the drive utilisation is the ramp torque divided by the mean starting torque",
     ),
     computed(
         "power_travel", ("torque_motor_travel",), _power, frozenset({Run}), "power is torque times speed of the motors"
     ),
     computed(
         "storm_reserve", ("holding_force", "storm_force"), _storm, frozenset({Storm}),
-        "the reserve in a storm is the force that holds over the one that drives",
+        "the out-of-service reserve is the holding force divided by the driving force",
     ),
 )  # fmt: skip

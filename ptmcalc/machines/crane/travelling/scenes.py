@@ -22,14 +22,14 @@ class TravelScene(Scene):
     load: Literal["full", "empty"] = "full"
     """the rated load on the hook, or the hook block alone"""
     trolley: Literal["worst", "near", "middle", "far"] = "worst"
-    """where the trolley stands: the worst of all places, nearest to rail A, in the middle, farthest from rail A"""
+    """trolley position: worst position, nearest to rail A, middle, farthest from rail A"""
 
     def default_name(self) -> str:
         return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
 
 
 class Run(TravelScene):
-    """Even travel."""
+    """Steady travel."""
 
     type: Literal["run"] = "run"
 
@@ -42,21 +42,21 @@ class MovingScene(TravelScene, TransientScene):
     slope: Literal["against", "with", "none"] | None = None
     """the slope of the file; against a start and with a stop when left out"""
     length: Annotated[PositiveSpan | None, Absent("the length of the `suspension`")] = None
-    """of the ropes, from where they are held to the middle of the load; that of the `suspension` when left out"""
+    """rope length from suspension point to load centre; default: that of the `suspension`"""
 
 
 class Start(MovingScene):
-    """The drive brings it to speed."""
+    """A start to full speed."""
 
     type: Literal["start"] = "start"
 
 
 class Brake(MovingScene):
-    """It is brought to rest from full speed."""
+    """A stop from full speed."""
 
     type: Literal["brake"] = "brake"
     by: Literal["ramp", "brake"] | None = None
-    """what stops it: the `deceleration` of the drive, or its brakes; the ramp where the file has one"""
+    """type of stop: `deceleration` of the drive, or brakes; default: the ramp if the file gives one"""
 
 
 class HoistWhileTravelling(MovingScene):
@@ -65,49 +65,49 @@ class HoistWhileTravelling(MovingScene):
     type: Literal["hoist_while_travelling"] = "hoist_while_travelling"
     hoist: Literal["up", "down"] = "up"
     """direction"""
-    time: Annotated[PositiveTime | None, Absent("it is hoisted as long as the crane starts")] = None
-    """how long from the beginning of the start; as long as the start when left out"""
+    time: Annotated[PositiveTime | None, Absent("hoisting continues during the start of the crane")] = None
+    """hoisting time from the beginning of the start; default: the starting time"""
 
 
 class Collision(TravelScene):
-    """It runs onto its buffers."""
+    """A collision with the buffers."""
 
     type: Literal["collision"] = "collision"
     speed_share: Annotated[PositiveFraction, Absent("full speed: the worst case")] = 1.0
-    """of full speed at which the buffers are hit; 0.7 (EN 13001-2) or 0.5 with limit switches that have been passed"""
+    """impact speed / full speed; 0.7 (EN 13001-2), or 0.5 with limit switches"""
     suspension: Literal["swinging", "guided"] = "swinging"
-    """whether the load swings on, or is guided and hits with the crane"""
+    """suspended load, or guided load that moves with the crane"""
     drive: Literal["off", "on"] = "off"
-    """whether the motors still push with their mean starting torque"""
-    other_mass: Annotated[PositiveMass | None, Absent("it runs onto a stop that does not give")] = None
-    """of a crane on the same rails, with the same buffers, that it runs into instead of a stop"""
+    """whether the motors drive with their mean starting torque during the impact"""
+    other_mass: Annotated[PositiveMass | None, Absent("impact on a rigid end stop")] = None
+    """mass of a second crane on the same rails with the same buffers, instead of an end stop"""
     other_speed: Annotated[
         Annotated[float, Measure(units.SPEED, at_least=0)],
         Absent("the other crane is at standstill, as this scene states"),
     ] = 0.0
-    """of that crane, towards this one"""
+    """speed of the second crane, towards this one"""
 
 
 class RailStep(TravelScene):
-    """A wheel runs over the largest step and the largest gap of the rail."""
+    """A wheel travels over the maximum step and the maximum gap of the rail."""
 
     type: Literal["rail_step"] = "rail_step"
-    speed_share: Annotated[PositiveFraction, Absent("full speed, at which even travel is")] = 1.0
+    speed_share: Annotated[PositiveFraction, Absent("full travel speed")] = 1.0
     """of full speed"""
 
 
 class Skew(TravelScene):
-    """It travels skewed, guided by its foremost guide."""
+    """Skewed travel, guided by the front guide."""
 
     type: Literal["skew"] = "skew"
 
 
 class Storm(TravelScene):
-    """It stands in the wind out of service."""
+    """The parked crane in the out-of-service wind."""
 
     type: Literal["storm"] = "storm"
     load: Literal["full", "empty"] = "empty"
-    """what hangs on the hook: nothing out of service"""
+    """load on the hook: none out of service"""
 
 
 AnyScene = Annotated[

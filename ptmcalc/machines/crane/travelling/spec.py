@@ -53,17 +53,13 @@ class Bridge(Fragment):
     """without the trolley"""
     span: PositiveSpan
     """from rail A to rail B"""
-    centre: Annotated[PositiveSpan | None, Absent("bridges are alike on both sides")] = None
-    """of gravity, from rail A; in the middle when left out"""
+    centre: Annotated[PositiveSpan | None, Absent("symmetric bridge")] = None
+    """of gravity, from rail A; default: middle"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
-    cantilever_a: Annotated[
-        Span, Absent("without it the hook stays between the rails, to which its places are held")
-    ] = 0.0
+    cantilever_a: Annotated[Span, Absent("without it the hook positions are between the rails")] = 0.0
     """of a gantry, beyond rail A"""
-    cantilever_b: Annotated[
-        Span, Absent("without it the hook stays between the rails, to which its places are held")
-    ] = 0.0
+    cantilever_b: Annotated[Span, Absent("without it the hook positions are between the rails")] = 0.0
     """of a gantry, beyond rail B"""
 
 
@@ -73,13 +69,15 @@ class Trolley(Fragment):
     mass: PositiveMass
     """with the hoist, without the hook block"""
     gauge: Annotated[PositiveLength | None, OneOf("bridge.span")] = None
-    """from its rail A to its rail B; of a trolley that travels"""
+    """from its rail A to its rail B; of a travelling trolley"""
     nearest: Annotated[SignedSpan | None, OneOf("hook")] = None
-    """least distance of the hook from rail A, below 0 on a cantilever; of a trolley on a bridge"""
-    farthest: Annotated[SignedSpan | None, Absent("the trolley goes as near to rail B as to rail A")] = None
-    """largest distance of the hook from rail A; as far from rail B as `nearest` from rail A when left out"""
-    hook: Annotated[PositiveLength | None, Absent("the rope is held in the middle, as it is on most trolleys")] = None
-    """distance of the hook from rail A of a trolley that travels; in the middle when left out"""
+    """minimum distance of the hook from rail A, below 0 on a cantilever; of a trolley on a bridge"""
+    farthest: Annotated[SignedSpan | None, Absent("the trolley approaches rail B as closely as rail A")] = None
+    """maximum distance of the hook from rail A; default: symmetric to `nearest`"""
+    hook: Annotated[
+        PositiveLength | None, Absent("the rope suspension point is in the middle, as on most trolleys")
+    ] = None
+    """distance of the hook of a travelling trolley from its rail A; default: middle"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
 
@@ -88,7 +86,7 @@ class Wind(Fragment):
     """The wind along the rails."""
 
     area: WindArea
-    """of what travels, facing the wind, without the load"""
+    """wind area of the travelling parts, without the load"""
     load_area: Annotated[WindArea | None, Assumed()] = None
     """of the load"""
     shape: Annotated[
@@ -97,107 +95,103 @@ class Wind(Fragment):
     """force coefficient of the area"""
     load_shape: Annotated[PositiveRatio, Assumed(1.2, 1.1, 2.4, "EN 13001-2: 1.2 for loads, 2.4 when unknown")] = 1.2
     """force coefficient of the load"""
-    height: Annotated[
-        Span | None, Absent("the wind acts at the centre of gravity, which is about the middle of the area")
-    ] = None
-    """of the middle of the area above the rails; that of the bridge's or trolley's centre when left out"""
+    height: Annotated[Span | None, Absent("the wind acts at the centre of gravity, near the centre of the area")] = None
+    """height of the centre of the wind area above the rails; default: that of the centre of gravity"""
     pressure: PositivePressure
-    """in which the crane works: starts, travels, stops"""
+    """in-service pressure for starts, travel and stops"""
     pressure_max: Annotated[PositivePressure | None, Assumed()] = None
-    """largest in service, against which it still travels; `pressure` when left out"""
-    pressure_storm: Annotated[
-        PositivePressure | None, Absent("without it no crane is parked outdoors in a `storm`")
-    ] = None
-    """out of service, in which it must stand; needed for a `storm`"""
+    """maximum in-service pressure; `pressure` when left out"""
+    pressure_storm: Annotated[PositivePressure | None, Absent("without it there is no scene `storm`")] = None
+    """out-of-service pressure; needed for a `storm`"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """The pressures rise."""
         steady, most, storm = (given.number(key) for key in ("pressure", "pressure_max", "pressure_storm"))
         if steady is not None and most is not None and most < steady:
-            yield Conflict(("pressure_max",), "it is below the `pressure` in which the crane works", "swap them")
+            yield Conflict(("pressure_max",), "it is below the in-service `pressure`", "swap them")
         if most is not None and storm is not None and storm < most:
-            yield Conflict(("pressure_storm",), "it is below the largest pressure in service", "swap them")
+            yield Conflict(("pressure_storm",), "it is below the maximum in-service pressure", "swap them")
 
 
 class Parking(Fragment):
-    """Devices other than the brakes that hold the crane out of service."""
+    """Holding devices other than the brakes, out of service."""
 
     force: PositiveForce
     """of rail clamps, pins or storm anchors"""
 
 
 class TravelChecks(CheckSettings):
-    """Limits of the checks of a crane that travels."""
+    """Limits of the checks of a travelling crane."""
 
     start_time: Annotated[PositiveTime, Limit()] = 15.0
-    """longest start"""
+    """maximum starting time"""
     brake_time: Annotated[PositiveTime, Limit()] = 15.0
-    """longest stop"""
+    """maximum stopping time"""
     brake_distance: Annotated[PositiveSpan | None, Limit()] = None
     """maximum stopping distance; needed to check it"""
     sway_angle: Annotated[PositiveAngle, Limit()] = 0.174532925199433
-    """largest angle of the load, 10 deg when left out"""
+    """maximum sway angle of the load, 10 deg when left out"""
     residual_sway: Annotated[PositiveAngle | None, Limit()] = None
-    """largest angle that stays after the start or stop; needed to check it"""
+    """maximum residual sway angle after the start or stop; needed to check it"""
     skid_reserve: Annotated[PositiveRatio, Limit()] = 1.2
-    """least adhesion of a driven or braked wheel over what its drive asks of it"""
+    """minimum adhesion of a driven or braked wheel / required force"""
     motor_reserve: Annotated[PositiveRatio, Limit()] = 1.1
-    """least starting torque over the torque of even travel against the wind"""
+    """minimum starting torque / steady travel torque against the wind"""
     wind_reserve: Annotated[PositiveRatio, Limit()] = 1.1
-    """least force that holds the crane over that of the wind out of service"""
+    """minimum holding force / out-of-service wind force"""
     stability: Annotated[PositiveRatio, Limit()] = 1.0
-    """least moment that keeps the crane on its wheels over that which tips it, both with their partial factors"""
+    """minimum stabilising moment / tipping moment, both with partial factors"""
     collision_speed: Annotated[PositiveSpeed | None, Limit()] = None
-    """largest speed at which a buffer may be hit; that of the buffer when left out"""
+    """maximum buffer impact speed; default: that of the buffer"""
 
 
 class Travelling(MachineSpec):
-    """A crane that travels: a bridge or a gantry with its trolley on a runway, or a trolley on its bridge."""
+    """A travelling crane: a bridge or gantry with its trolley on a runway, or a trolley on its bridge."""
 
     kind: Literal["crane"]
     type: Literal["travelling"]
     travels: Literal["bridge", "gantry", "trolley"] = "bridge"
-    """what the file describes the travel of"""
+    """travelling part described by the file"""
     load: PositiveMass
     """rated load on the hook"""
     hook_block: Annotated[Mass | None, Assumed()] = None
-    """hook block and whatever stays on the hook"""
+    """hook block and permanent load handling devices"""
     bridge: Bridge | None = None
     """travelling parts other than the trolley; of a bridge or gantry"""
     trolley: Trolley
     """the trolley"""
     wheels: Wheels
-    """on which it travels"""
+    """travel wheels"""
     rolling: Rolling
-    """what the wheels resist with"""
+    """rolling resistance of the wheels"""
     rail: Rail = Rail()
-    """what it runs on"""
+    """runway rail"""
     guide: Guide | None = None
-    """what keeps it on its rails; needed for a `skew`"""
+    """lateral guides; needed for a `skew`"""
     wind: Wind | None = None
-    """outdoors"""
+    """wind, for outdoor cranes"""
     speed: PositiveSpeed
     """of travel"""
     drive: TravelDrive
     """motors, gear, brakes"""
     suspension: Suspension
-    """how the load hangs"""
+    """suspension of the load"""
     buffers: Buffer | None = None
     """at the ends; needed for a `collision`"""
     parking: Parking | None = None
-    """devices other than the brakes that hold it out of service"""
+    """holding devices other than the brakes, out of service"""
     classes: Classes = Field(default=Classes(), alias="class")
-    """what the crane is classed as"""
+    """classification of the crane"""
     declared: Declared = Declared()
-    """dynamic factors with which its structure has been calculated"""
+    """declared dynamic factors of the structure"""
     duty: Duty | None = None
-    """what the mechanism does all day; needed to check the motor's heating and the class"""
+    """duty; needed to check the motor heating and the class"""
     checks: TravelChecks = TravelChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; when left out: even travel, a start and a stop, loaded and empty, and what the
-    file has the data of: hoisting while travelling, a collision with the buffers, a step of the rail, skewing,
+    """load cases; default: steady travel, a start and a stop, loaded and empty, and scenes for which the
+    file gives data: hoisting while travelling, a collision with the buffers, a step of the rail, skewing,
     a storm"""
 
     @classmethod
@@ -244,23 +238,23 @@ def _parts(given: Given) -> Iterator[Conflict]:
         return
     if what == "trolley":
         if "bridge" in given:
-            yield Conflict(("bridge",), "a trolley travels on it: it stands still", "delete `bridge`")
+            yield Conflict(("bridge",), "the trolley travels and the bridge is stationary", "delete `bridge`")
         if trolley is not None and trolley.raw:
             if "gauge" not in trolley:
-                yield Conflict(("trolley",), "a trolley that travels needs its `gauge`", "add `gauge: 2 m`")
+                yield Conflict(("trolley",), "a travelling trolley needs its `gauge`", "add `gauge: 2 m`")
             for key in ("nearest", "farthest"):
                 if key in trolley:
-                    reason = "it is of a trolley on a bridge that travels"
+                    reason = "it is a key of a trolley on a travelling bridge"
                     yield Conflict(("trolley", key), reason, f"delete `{key}`, or write `travels: bridge`")
         return
     if "bridge" not in given:
-        yield given.missing("bridge", f"a {what} that travels needs its `bridge`")
+        yield given.missing("bridge", f"a travelling {what} needs its `bridge`")
     if trolley is not None and trolley.raw:
         if "nearest" not in trolley:
-            reason = "how near the hook comes to rail A is missing"
+            reason = "the minimum hook distance from rail A is missing"
             yield Conflict(("trolley",), reason, "add `nearest: 1 m`")
         if "hook" in trolley:
-            reason = "the place of the hook is that of the trolley on its bridge"
+            reason = "the hook position is that of the trolley on its bridge"
             yield Conflict(("trolley", "hook"), reason, "delete `hook`")
 
 
@@ -271,7 +265,7 @@ def _reach(given: Given) -> Iterator[Conflict]:
         return
     near, far = trolley.number("nearest"), trolley.number("farthest")
     if near is not None and far is not None and far < near:
-        yield Conflict(("trolley", "farthest"), "it is nearer to rail A than `nearest`", "swap them")
+        yield Conflict(("trolley", "farthest"), "it is closer to rail A than `nearest`", "swap them")
     if bridge is not None and (span := bridge.number("span")) is not None:
         least, most = -(bridge.number("cantilever_a") or 0.0), span + (bridge.number("cantilever_b") or 0.0)
         for key, place in (("nearest", near), ("farthest", far)):
@@ -281,7 +275,7 @@ def _reach(given: Given) -> Iterator[Conflict]:
                 hint = f"write {end}, or correct the `span` (of a gantry, give its cantilevers)"
                 yield Conflict(("trolley", key), reason, hint)
         if near is not None and "farthest" not in trolley and span / 2 < near <= span:
-            reason = "it is beyond the middle of the bridge: where the trolley ends on the other side is missing"
+            reason = "it is beyond the middle of the bridge: the trolley limit on the other side is missing"
             far_hint = units.show(span - 0.05 * span, units.SPAN, 3)
             yield Conflict(("trolley", "nearest"), reason, f"write less, or add `farthest: {far_hint}`")
         centre = bridge.number("centre")
@@ -316,7 +310,7 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             if not there:
                 yield Conflict(("scenes", index), f"a `{what}` needs `{'.'.join(path)}`", f"add `{example}`")
         if what == "skew" and given.word("travels") == "trolley":
-            yield Conflict(("scenes", index), "a trolley is not reckoned to skew here", "delete this scene")
+            yield Conflict(("scenes", index), "skewing of a trolley is not computed", "delete this scene")
         if what == "rail_step" and rail is not None and not rail.number("step") and not rail.number("gap"):
             yield Conflict(("scenes", index), "the rail has neither `step` nor `gap`", "add `rail: {step: 1 mm}`")
         by_brake = what == "brake" and (scene.word("by") == "brake")
@@ -329,6 +323,6 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             if speed is None or length is None or lasts is None or scene.word("hoist") != "up":
                 continue
             if speed * lasts >= length:
-                reason = "the hook would be above the place where its ropes are held"
+                reason = "the hook would be above the rope suspension point"
                 longest = units.show(0.9 * length / speed, units.TIME, 2)
                 yield Conflict(("scenes", index, what, "time"), reason, f"write `time: {longest}` or less")

@@ -55,13 +55,13 @@ class _Course(Course):
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """A whole start or stop with the load in Cartesian coordinates, twice.
+    """A complete start or stop with the load in Cartesian coordinates, computed twice.
 
         d'' = g + f/M - x'' e + lambda d,   (m + k m_r) x'' = k F - W - M (lambda d).e
 
-    **Range** as the simulated start: a taut rope without mass, one plane, wheels that do not slide.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first and shorter
-    steps; extremes by looks that close in on the highest of 17 in a step.
+    **Range** as the simulated start: a taut massless rope, one plane, wheels without slip.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first and
+    shorter steps; extremes by refined sampling around the maximum of 17 samples per step.
     **Source** the load's equation with the rope as a constraint; Hairer, Nørsett and Wanner, Solving Ordinary
     Differential Equations I, 2nd ed.
     """
@@ -95,7 +95,7 @@ def _travelled(spec: Travelling, scene: Moving, curve: bool, tolerance: float) -
             if there:
                 break
     if not there:
-        raise NumericsError("NUM103", f"the crane does not come to speed or rest by {most:.3g} s")
+        raise NumericsError("NUM103", f"the crane does not reach its speed or standstill by {most:.3g} s")
     reached, way = journey.time, float(journey.state[0])
     begins = max(reached, motion.hoist_time)
     left = 0.0
@@ -205,9 +205,7 @@ def comes_about(spec: Travelling, scene: Moving) -> Criterion | None:
     if not motion.hoist_time < math.inf or _last_length(motion) <= 0:
         return Criterion("rope", 1.0, 1.0, "no rope left at the end of hoisting", "the file")
     slow = _SLOWEST * math.sqrt(motion.gravity * motion.length) / motion.speed
-    return Criterion(
-        "speed", slow, 1.0, "speed at which steps along the rope lose the swing, over that of the crane", "cost"
-    )
+    return Criterion("speed", slow, 1.0, "speed limit of steps along the rope / crane speed", "cost")
 
 
 SWAY_CARTESIAN: Solver[Travelling, Moving] = Solver(

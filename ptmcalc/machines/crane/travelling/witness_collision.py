@@ -26,12 +26,12 @@ _SLOW = 0.01
 
 
 def collide(spec: Travelling, scene: Collision, carried: frozenset[str], level: int) -> Result:
-    """The crane on the buffers of both rails, turning, and the load on its ropes, followed over time.
+    """Motion of the crane on the buffers of both rails, with rotation and load sway, over time.
 
-        M y'' + F(y) = P + H,   F = c u, F_e (u/s)^p, F_0 or k u'^2;   of two cranes u is half of what they near
+        M y'' + F(y) = P + H,   F = c u, F_e (u/s)^p, F_0 or k u'^2;   for two cranes u is half of their approach
 
     **Range** as `buffer_collision`.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first.
     **Source** Newton's law; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     given = spec.buffers

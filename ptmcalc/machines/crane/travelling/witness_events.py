@@ -37,13 +37,13 @@ choice: a smaller value refuses slow cranes, a larger one allows longer runs."""
 
 
 def climb(spec: Travelling, scene: RailStep, carried: frozenset[str], level: int) -> Result:
-    """The mass on its spring above a wheel whose centre follows a step or a gap, over time.
+    """Motion of the sprung mass above a wheel whose centre follows a step or a gap.
 
         y'' = omega^2 (z - y),   phi_4 = 1 + omega^2 max(z - y)/g
         z = (h/2) (1 - cos(pi x/s)), s = (2 h r)^(1/2)  on a step,   z = -(e^2/(16 r)) (1 - cos(2 pi x/e))  in a gap
 
-    **Range** as the closed form: one mode without damping, at rest before.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
+    **Range** as the closed form: one mode without damping, initially at rest.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first.
     **Source** Newton's law; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     found = [_on_the_rail(spec, scene, tolerance) for tolerance in lumped.TOLERANCES[-2:]]
@@ -117,7 +117,7 @@ def turns_of(spec: Travelling, scene: RailStep) -> Criterion:
     speed = scene.speed_share * spec.speed
     omega = 2 * math.pi * filled(spec.rail.frequency)
     turns = max((omega * length / speed for length, _, _ in _places(spec)), default=0.0)
-    return Criterion("ωt", turns, _MOST_TURNS, "radians of the swing on a step: too much work", "the file")
+    return Criterion("ωt", turns, _MOST_TURNS, "radians of the oscillation on a step: too much work", "the file")
 
 
 Friction = Callable[[float], float]
@@ -136,15 +136,16 @@ class _Wheel:
 
 
 def lean(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> Result:
-    """The turn and the roll of a crane at which the forces of all its wheels are in balance, by nested roots.
+    """Skewing angle and rolling slip of a crane with all wheel forces in equilibrium, by nested root finding.
 
         s_y = alpha - theta d,   s_x = theta y - rho,   F = N f(|s|) s/|s|
         rho: sum of F_x = 0,   theta: sum of F_y d - F_x y = 0,   S = sum of F_y
 
-    The standard's force with f growing in proportion to the slip up to f(alpha), the other with its whole curve.
+    The force of the standard assumes f proportional to the slip up to f(alpha), the other force the complete friction
+    curve.
 
     **Range** as the solver.
-    **Error** three times what roots of two tolerances differ by.
+    **Error** three times the difference of the roots for two tolerances.
     **Source** balance of forces and of moments about the guide; Brent's method.
     """
     given = spec.guide
@@ -222,13 +223,13 @@ def _guided(wheels: list[_Wheel], law: Friction, angle: float, tolerance: float)
 
 
 def stand(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -> Result:
-    """Loads of the corners by their four balances, and the largest force that wheels, brakes and clamps can hold.
+    """Corner loads from their four equilibrium equations, and the maximum holding force of wheels, brakes and clamps.
 
         sum N = G,   sum of N_B l = sum G y,   sum (N_1 - N_2) B/2 = -F h,   N_A1 - N_A2 = N_B1 - N_B2 of a rigid frame
         max sum T   with  0 <= T_k <= mu N_k  and  T_k <= F_b/n, or sum T <= F_b of coupled wheels
 
     **Range** as the closed form.
-    **Error** rounding of the equations, and 1e-9 for the programme.
+    **Error** rounding of the equations, and 1e-9 for the linear programme.
     **Source** equilibrium; linear programming.
     """
     assert spec.wind is not None

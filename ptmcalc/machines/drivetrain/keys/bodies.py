@@ -179,7 +179,7 @@ class Rod(Fragment):
     radius: Annotated[Length, Absent("a thin rod")] = 0.0
     """of the rod itself (`parallel`)"""
     angle: Annotated[Annotated[float, Measure(units.ANGLE)] | None, OneOf("position")] = None
-    """of an inclined rod to the axis"""
+    """angle of an inclined rod to the axis"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -12,16 +12,16 @@ from ptmcalc.spec.optional import Assumed, OneOf
 
 
 class Gear(Fragment):
-    """A gear without elasticity, or a drum that makes travel out of rotation."""
+    """A rigid gear, or a drum that converts rotation into travel."""
 
     start: str = Field(alias="from")
     """the inertia on the motor's side"""
     end: str = Field(alias="to")
     """the inertia on the load's side"""
     ratio: Annotated[Ratio | None, OneOf("radius")] = None
-    """speed of `from` over speed of `to`; negative where it reverses"""
+    """speed of `from` / speed of `to`; negative if it reverses"""
     radius: Annotated[Annotated[float, Measure(units.LENGTH, above=0)] | None, OneOf("ratio")] = None
-    """of the drum, wheel or pinion that moves `to`, instead of `ratio`"""
+    """radius of the drum, wheel or pinion that moves `to`, instead of `ratio`"""
     efficiency: Annotated[
         Efficiency,
         Assumed(1.0, 0.94, 1.0, "one to three stages of gears in oil or drums on rolling bearings, 0.98 to 0.99 each"),
@@ -35,7 +35,7 @@ class Gear(Fragment):
         """A ratio or a radius, and not the same inertia twice."""
         yield from exactly_one(given, "ratio", "radius")
         if given.number("ratio") == 0:
-            yield Conflict(("ratio",), "a gear of ratio 0 transmits nothing", "write the speed ratio")
+            yield Conflict(("ratio",), "a gear with ratio 0 transmits no motion", "write the speed ratio")
 
     @property
     def speed_ratio(self) -> float:

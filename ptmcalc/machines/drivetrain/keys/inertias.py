@@ -13,18 +13,18 @@ from ptmcalc.spec.optional import Absent, OneOf
 
 
 class Body(Fragment):
-    """An inertia of the train: it turns (`inertia` or `body`) or travels (`mass`)."""
+    """An inertia of the train: rotating (`inertia` or `body`) or travelling (`mass`)."""
 
     inertia: Annotated[Inertia | None, OneOf("mass, body")] = None
-    """moment of inertia; 0 is allowed only on a shaft that a gear ties to another inertia"""
+    """moment of inertia; 0 is permitted only on a shaft connected to another inertia by a gear"""
     mass: Annotated[Mass | None, OneOf("inertia, body")] = None
-    """mass of a part that travels"""
+    """mass of a travelling part"""
     body: AnyBody | None = None
     """a body whose inertia is computed from its dimensions"""
-    position: Annotated[Turn, Absent("positions are counted from there")] = 0.0
+    position: Annotated[Turn, Absent("positions are relative to it")] = 0.0
     """angle or position at the start"""
-    speed: Annotated[AnySpeed | None, Absent("it starts from rest or with the speed of the scene")] = None
-    """speed at the start; that of the scene, or rest, when left out"""
+    speed: Annotated[AnySpeed | None, Absent("it starts from standstill or with the speed of the scene")] = None
+    """speed at the start; default: that of the scene, or standstill"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -56,12 +56,12 @@ class MotionPoint(Fragment):
 
 
 class Motion(Fragment):
-    """A prescribed motion of an inertia, straight between the points of its speed."""
+    """A prescribed motion of an inertia, linear between the points of its speed."""
 
     at: str
     """the inertia it acts on"""
     points: Annotated[tuple[MotionPoint, ...], Field(min_length=1, max_length=500)]
-    """in rising order"""
+    """in ascending order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -78,6 +78,6 @@ class Impulse(Fragment):
     at: str
     """the inertia it acts on"""
     time: PositiveTime
-    """when"""
+    """time of the impulse"""
     size: AnyImpulse
-    """torque times time, or force times time"""
+    """impulse: torque times time, or force times time"""

@@ -18,7 +18,7 @@ class Clearance(Fragment):
     """The backlash of a gear or toothed coupling from its geometry."""
 
     centre_distance: Annotated[PositiveLength | None, OneOf("value")] = None
-    """with `accuracy_class`: least clearance of new spur gears, a*cbrt(A) (a reading of a lost table)"""
+    """with `accuracy_class`: minimum clearance of new spur gears, a*cbrt(A) (reconstructed table)"""
     accuracy_class: Literal[2, 3, 4] | None = None
     """accuracy class of the old standard the table was made for"""
     value: Annotated[PositiveLength | None, OneOf("centre_distance")] = None
@@ -32,7 +32,7 @@ class Clearance(Fragment):
     both_worn: bool = True
     """whether both gears have lost it"""
     kind: Literal["gearbox", "coupling", "open_gear"] = "gearbox"
-    """what the wear is held against: 25 % of the tooth in gearboxes and couplings, 40 % in open gears"""
+    """wear limit: 25 % of the tooth in gearboxes and couplings, 40 % in open gears"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -55,18 +55,19 @@ class Link(Fragment):
     """names of two inertias, or of one and `ground`; a positive torque drives the second"""
     stiffness: Annotated[Stiffness | None, OneOf("law: rigid")] = None
     """of the whole link; a `rigid` contact has none"""
-    damping: Annotated[Damping, Absent("undamped oscillations are the largest")] = 0.0
+    damping: Annotated[Damping, Absent("undamped oscillations are largest")] = 0.0
     """viscous damping of the link"""
     gap: Annotated[Play | None, Absent("a shaft or another part without clearance"), Also("backlash")] = None
     """total backlash, half of it to either side"""
     clearance: Clearance | None = None
     """the backlash from the gear geometry, instead of `gap`"""
     slack: Annotated[Play | None, Absent("no rope or chain")] = None
-    """a rope or chain: it pulls only, and only after so much travel"""
+    """a rope or chain: tension only, after this slack travel"""
     law: Literal["clamped", "no_pull", "kelvin", "hunt_crossley", "rigid"] | None = None
-    """how contact is made and lost; `clamped` with a gap, `no_pull` with slack when left out"""
+    """contact law; default: `clamped` with a gap, `no_pull` with slack"""
     dissipation: Annotated[
-        Annotated[float, Measure(units.RATIO, at_least=0)] | None, Absent("a contact that loses nothing rebounds most")
+        Annotated[float, Measure(units.RATIO, at_least=0)] | None,
+        Absent("a contact without losses has the largest rebound"),
     ] = None
     """c in F = k d^n (1 + 1.5 c d'), in s/rad or s/m (`hunt_crossley`)"""
     exponent: Annotated[Exponent, Absent("a linear contact")] = 1.0
@@ -78,7 +79,7 @@ class Link(Fragment):
     preload: Annotated[Torque, Absent("no torque at the start")] = 0.0
     """torque in the link at the start; with `slack` and `driving` the rope is taut"""
     limit: Annotated[PositiveTorque | None, Limit()] = None
-    """largest torque the link may carry"""
+    """permissible torque of the link"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -89,7 +90,7 @@ class Link(Fragment):
         law = given.word("law")
         contact = any(key in given for key in ("gap", "clearance", "slack"))
         if law is not None and not contact:
-            yield Conflict(("law",), f"`{law}` is a law of contact, and the link has no backlash", "add `gap: 0 deg`")
+            yield Conflict(("law",), f"`{law}` is a contact law, and the link has no backlash", "add `gap: 0 deg`")
         if law == "rigid":
             for key in ("stiffness", "damping"):
                 if key in given:

@@ -33,6 +33,6 @@ def rising(given: Given, key: str) -> Iterator[Conflict]:
     numbers = [point.number(key) if point else None for point in given.blocks("points")]
     for index, (one, other) in enumerate(pairwise(numbers), 1):
         if one is not None and other is not None and not other > one:
-            reason = f"the `{key}` of a point is not above the one before"
+            reason = f"the `{key}` of a point is not above that of the point before"
             yield Conflict(("points", index, key), reason, "sort the points")
             return

@@ -24,13 +24,13 @@ class OnInertia(Fragment):
 
 
 class ConstantTorque(OnInertia):
-    """A torque or force that does not change: a weight, a hanging load."""
+    """A constant torque or force: a weight, a suspended load."""
 
     type: Literal["constant"]
     torque: Torque
     """positive in the direction of motion"""
     delay: Annotated[Time, Absent("it acts from the start")] = 0.0
-    """when it sets in"""
+    """start of the torque"""
 
 
 class RisingTorque(OnInertia):
@@ -39,7 +39,7 @@ class RisingTorque(OnInertia):
     type: Literal["ramp"]
     torque: Torque
     """at the end of the ramp, and after it"""
-    first: Annotated[Torque, Absent("it starts from nothing")] = 0.0
+    first: Annotated[Torque, Absent("it starts from zero")] = 0.0
     """at the start of the scene"""
     time: PositiveTime
     """duration of the ramp"""
@@ -50,13 +50,13 @@ class SineTorque(OnInertia):
 
     type: Literal["sine"]
     amplitude: Torque
-    """half of its swing"""
+    """amplitude of the torque"""
     frequency: Annotated[PositiveFrequency | None, OneOf("angular_frequency")] = None
     """cycles per second"""
     angular_frequency: Annotated[AngularFrequency | None, OneOf("frequency")] = None
     """w itself, instead of `frequency`"""
     mean: Annotated[Torque, Absent("it has no mean")] = 0.0
-    """round which it swings"""
+    """mean torque"""
     phase: Annotated[Annotated[float, Measure(units.ANGLE)], Absent("it starts at 0")] = 0.0
     """of the sine at the start of the scene"""
 
@@ -99,11 +99,11 @@ class PositionPoint(Fragment):
 
 
 class OverTime(OnInertia):
-    """A torque over time, straight between points; the last holds on."""
+    """A torque over time, linear between points; the last value remains constant."""
 
     type: Literal["over_time"]
     points: Annotated[tuple[TimePoint, ...], Field(min_length=2, max_length=2000)]
-    """in rising order"""
+    """in ascending order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -112,11 +112,11 @@ class OverTime(OnInertia):
 
 
 class OverSpeed(OnInertia):
-    """A torque over the speed of its inertia; the ends hold outside."""
+    """A torque over the speed of its inertia; the end values apply outside."""
 
     type: Literal["over_speed"]
     points: Annotated[tuple[SpeedPoint, ...], Field(min_length=2, max_length=500)]
-    """in rising order"""
+    """in ascending order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -129,11 +129,11 @@ class OverPosition(OnInertia):
 
     type: Literal["over_position"]
     points: Annotated[tuple[PositionPoint, ...], Field(min_length=2, max_length=500)]
-    """in rising order"""
+    """in ascending order"""
     period: Annotated[
-        Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Absent("it does not repeat itself")
+        Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Absent("it is not periodic")
     ] = None
-    """the table repeats after so much travel; its last point is then one period behind the first"""
+    """period of the table; its last point is one period after the first"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -158,10 +158,10 @@ class MotorOn(Fragment):
     at: str
     """the inertia it acts on"""
     motor: AnyMotor
-    """what its torque is"""
+    """torque of the motor"""
     count: Annotated[Annotated[int, Field(ge=1, le=64, strict=True)], Absent("one motor drives the inertia")] = 1
     """number of equal motors"""
     off_after: Annotated[PositiveTime | None, Absent("it stays on")] = None
-    """it is switched off after so much time"""
+    """time of the switch-off"""
     off_delay: Annotated[Time, Absent("it is off at the start of a stop")] = 0.0
-    """in a `stop`: how long it still drives"""
+    """in a `stop`: delay of the switch-off"""

@@ -14,11 +14,11 @@ couplings (`WORN_OUT`), and in open gears (`WORN_OUT_OPEN`). A smaller value req
 
 
 def torque_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """The largest torque a link may carry, from the file.
+    """Permissible torque of a link, given in the file.
 
     **Range** each link that has a `limit`.
     **Error** none.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     return Estimate.exact(math.inf)
 
@@ -50,16 +50,16 @@ TORQUE: AnyCheck = Check(
     what="The peak torque (or force) of every link with a `limit` is at most this limit.",
     why="A coupling, shaft or rope breaks at its peak load, not at its mean load.",
     formula="max |T(t)| <= T_limit",
-    source="the maker's limit of the part",
+    source="the manufacturer's limit of the part",
 )
 
 
 def wear_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Largest worn part of a tooth: 25 % in gearboxes and couplings, 40 % in open gears.
+    """Permissible tooth wear relative to the tooth thickness: 25 % in gearboxes and couplings, 40 % in open gears.
 
-    **Range** links whose play comes from a `clearance` with a module.
+    **Range** links with a backlash from a `clearance` with a module.
     **Error** none.
-    **Source** lecture notes Kramatorsk 2007 (15 to 25 % and 40 % of the tooth's thickness).
+    **Source** lecture notes Kramatorsk 2007 (15 to 25 % and 40 % of the tooth thickness).
     """
     return Estimate.exact(WORN_OUT)
 

@@ -23,29 +23,30 @@ CHANGED = MOVING - {"torque_steady", "energy_residual", "braking_reserve"}
 
 
 def elasticity_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
-    """Largest swing that the links' elasticity can add to a link's torque, over the rigid train's largest torque there.
+    """Maximum oscillation that link elasticity adds to a link torque, relative to the maximum torque of the rigid
+    train.
 
         E = max over links of  sum_n |c_n| g_n / T_rigid
 
-    c_n is what a step of the outer torques excites of the n-th mode in the link, g_n what their rise leaves of it
-    (`bounds.swings`).
+    c_n is the response of the n-th mode in the link to a step of the external torques, g_n the share that remains with
+    their rise time (`bounds.swings`).
 
-    **Range** any train; infinite where it is not linear: motors, brakes, friction, play, lossy gears.
+    **Range** any train; infinite if it is not linear: motor curves, brakes, friction, backlash, gear losses.
     **Error** an upper bound of the ratio, for an undamped train.
     **Source** derived in `machines.drivetrain.links.bounds`; the threshold of 5 % is an engineering choice.
     """
     value = bounds.largest_share(spec, scene)
-    meaning = "swing the links can add to a torque, over the rigid train's"
+    meaning = "oscillation added by the links / torque of the rigid train"
     return Criterion("E", value, ELASTICITY_THRESHOLD, meaning, "machines.drivetrain.links.bounds")
 
 
 def elasticity_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mapping[str, Interval]:
-    """Interval of every load of the rigid train that holds the elastic one.
+    """Interval of every load of the rigid train that contains the load of the elastic train.
 
         |T - T_rigid| <= sum_n |c_n| g_n,    |w - w_rigid| <= sum_n |d_n| g_n/w_n,    |phi - phi_rigid| <= ...
 
-    **Range** linear trains at rest in their links at the start; anything else is unbounded.
-    **Error** a bound for the undamped train; damping only takes from it.
+    **Range** linear trains with links initially at rest; otherwise unbounded.
+    **Error** a bound for the undamped train; damping only reduces the load.
     **Source** derived in `machines.drivetrain.links.bounds`.
     """
     if not spec.links:
@@ -60,13 +61,14 @@ def elasticity_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mappi
 
 
 def backlash_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
-    """What the run through the play adds to a link's torque.
+    """Torque added to a link by the passage through its backlash.
 
-        Pi_b = (2 C D/M) (J1 + J2)/J2,   peak over that without play (1 + sqrt(1 + Pi_b))/2
+        Pi_b = (2 C D/M) (J1 + J2)/J2,   peak relative to that without backlash (1 + sqrt(1 + Pi_b))/2
 
-    M is the torque that closes the play, J1 the inertia on its side, J2 that on the other, all on the link's shaft.
+    M is the torque that closes the backlash, J1 the inertia on its side, J2 the inertia on the other side, all at the
+    shaft of the link.
 
-    **Range** a start through the play; infinite where a torque changes its sign and opens it again.
+    **Range** a start through the backlash; infinite if a torque changes its sign and opens it again.
     **Error** exact for two inertias under a constant torque.
     **Source** `laws.backlash`; the threshold of 0.1 adds 2.4 %.
     """
@@ -77,12 +79,12 @@ def backlash_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
 
 
 def backlash_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mapping[str, Interval]:
-    """Nothing is known of what play changes, but for a train of two inertias that closes it once.
+    """Bound for a train of two inertias that closes its backlash once; otherwise unbounded.
 
         T <= T_0 (1 + sqrt(1 + Pi_b))/2     two inertias, constant torque, from rest
 
-    **Range** that train; anything else is unbounded.
-    **Error** exact there: the play only ever adds.
+    **Range** that train; otherwise unbounded.
+    **Error** exact for that train: backlash only increases the torque.
     **Source** `laws.backlash.backlash_peak_ratio`.
     """
     found = bounds.two_inertia_play(spec, scene, loads)

@@ -16,9 +16,9 @@ C = TypeVar("C", bound=TrainScene)
 
 
 def start_limit(spec: Drivetrain, scene: Start) -> Estimate:
-    """The longest start of the file.
+    """Maximum starting time given in the file.
 
-    **Range** any start with a speed that ends it.
+    **Range** any start with a target speed.
     **Error** none.
     **Source** a choice of the designer.
     """
@@ -90,7 +90,7 @@ START: Check[Drivetrain, Start] = Check(
 
 
 def stop_limit(spec: Drivetrain, scene: Stop) -> Estimate:
-    """The longest stop of the file.
+    """Maximum stopping time given in the file.
 
     **Range** any stop.
     **Error** none.
@@ -160,9 +160,9 @@ STOP: Check[Drivetrain, Stop] = Check(
 
 
 def _whole(spec: Drivetrain, scene: Start) -> Estimate:
-    """All of the speed that ends the start.
+    """1: the full target speed of the start.
 
-    **Range** any start with a speed that ends it.
+    **Range** any start with a target speed.
     **Error** none.
     **Source** definition of a start.
     """
@@ -171,8 +171,8 @@ def _whole(spec: Drivetrain, scene: Start) -> Estimate:
 
 REACHES: Check[Drivetrain, Start] = Check(
     code="DRV109",
-    title="speed ratio reached in the start",
-    question="Does the watched shaft reach its target speed?",
+    title="speed reached in the start, relative to target",
+    question="Does the shaft considered reach its target speed?",
     failure="target speed is not reached",
     scenes=frozenset({Start}),
     loads=("start_share",),
@@ -185,12 +185,12 @@ REACHES: Check[Drivetrain, Start] = Check(
     what="The inertia considered in the scene reaches the speed that ends the start, without a time limit.",
     why="A motor that stalls or stays below its speed overheats. The machine never operates.",
     formula="max w/w_end >= 1",
-    source="definition of a start; surplus of the motor's torque over its speed range",
+    source="definition of a start; excess motor torque over its speed range",
 )
 
 
 def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
-    """No speed at all.
+    """0: standstill.
 
     **Range** any stop.
     **Error** none.
@@ -202,7 +202,7 @@ def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
 RESTS: Check[Drivetrain, Stop] = Check(
     code="DRV110",
     title="speed after the stop",
-    question="Does the watched shaft come to rest and stay at rest?",
+    question="Does the shaft considered come to rest and stay at rest?",
     failure="shaft does not stay at rest",
     scenes=frozenset({Stop}),
     loads=("stop_speed_share",),
@@ -220,9 +220,9 @@ RESTS: Check[Drivetrain, Stop] = Check(
 
 
 def way_limit(spec: Drivetrain, scene: Stop) -> Estimate:
-    """The longest way of a stop, from the file.
+    """Permissible stopping angle or distance, given in the file.
 
-    **Range** a file that sets it.
+    **Range** files with this limit.
     **Error** none.
     **Source** a choice of the designer or of a rule for the machine.
     """
@@ -261,7 +261,7 @@ def _clutch_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain,
 
 
 def _no_slip(spec: Drivetrain, scene: Start) -> Estimate:
-    """No slip at all.
+    """0: no slip.
 
     **Range** any clutch that acts in a start.
     **Error** none.
@@ -273,7 +273,7 @@ def _no_slip(spec: Drivetrain, scene: Start) -> Estimate:
 CLUTCH: Check[Drivetrain, Start] = Check(
     code="DRV112",
     title="clutch slip speed after the start",
-    question="Does each clutch lock in the start?",
+    question="Is each clutch locked at the end of the start?",
     failure="clutch does not lock",
     scenes=frozenset({Start}),
     loads=("clutch_slip",),

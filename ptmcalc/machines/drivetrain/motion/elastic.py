@@ -14,17 +14,17 @@ narrows the error bar and takes more steps."""
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:
-    """Loads of a scene with all links elastic; without the effect `backlash` the links have no play.
+    """Loads of a scene with all links elastic; without the effect `backlash` the links have no backlash.
 
         J_i w_i' = sum of torques,   link torque by its law of contact,   friction set-valued
 
-    Between two events the system is linear and propagated by the matrix exponential; smooth torque curves are
-    polynomials of time found by iteration. Contacts, sticking and slipping change at roots of the exact solution.
+    Between two events the system is linear and propagated by the matrix exponential; smooth torque curves are iterated
+    as polynomials of time. Contacts, sticking and slipping change at roots of the exact solution.
 
-    **Range** any train; a chattering contact is given up after 20 000 events.
-    **Error** bars from runs that divide time otherwise (`bars.loads`); numbers are trusted only if the energy ledger
+    **Range** any train; a chattering contact ends the run after 20 000 events.
+    **Error** error bars from runs with other time steps (`bars.loads`); results are accepted only if the energy balance
     closes to 1e-9, with a nonlinear torque to ten times the tolerance.
-    **Source** derived in `numerics.piecewise` and `numerics.train`; cases against independent integrations.
+    **Source** derived in `numerics.piecewise` and `numerics.train`; verified by independent integrations.
     """
     case = case_of(spec, scene, "backlash" in carried)
     tolerance = TOLERANCES[level]

@@ -273,7 +273,7 @@ def _slipping(spec: Drivetrain, scene: TrainScene, course: simulation.Course, to
     ahead = _ahead(rigid(case_of(spec, scene, backlash=False)), end, _of_clutch(grip))
     if ahead.stuck is not None:
         message = f"the clutch slips permanently: {sides[0]}, {sides[1]}"
-        failure = Failure("DRV112", message, ("brakes", grip.name, "torque"), "more clutch torque", grip.name)
+        failure = Failure("DRV112", message, ("brakes", grip.name, "torque"), "increase the clutch torque", grip.name)
         return Ending((failure,), {name: Found(Estimate(slip, 0.0, math.inf, model=math.inf))})
     if math.isfinite(ahead.over) and scene.duration is None:
         until = max(2 * end, _LONGER * ahead.over)
@@ -294,7 +294,7 @@ def _driven_back(spec: Drivetrain, course: simulation.Course, part: Part) -> Fai
         return None
     now = units.show(abs(speed), _quantity(spec, case, part.body))
     message = f"`{name}` reaches its target speed and is driven back at {now} later"
-    cure = "more motor torque than the largest load, or less load"
+    cure = "increase the motor torque above the maximum load, or reduce the load"
     return Failure("DRV109", message, _motor_path(spec, name), cure, _element(case, part))
 
 
@@ -438,13 +438,21 @@ def _failure(spec: Drivetrain, case: Case, part: Part, speed: float) -> Failure:
         at_rest = not speed
         backward = speed * until < 0
         how = "stays at rest" if at_rest else f"is driven back at {now}" if backward else f"stays at {now}"
-        cure = "more motor torque at rest" if at_rest or backward else "more motor torque at this speed"
+        cure = (
+            "increase the motor torque at standstill"
+            if at_rest or backward
+            else "increase the motor torque at this speed"
+        )
         message = f"`{name}` {how} and never reaches {wanted}"
-        return Failure("DRV109", message, _motor_path(spec, name), f"{cure}, or less load and resistance")
+        return Failure("DRV109", message, _motor_path(spec, name), f"{cure}, or reduce load and resistance")
     brake = brake_of(spec, case, part.body)
     path: KeyPath = ("brakes", brake, "torque") if brake is not None else ("inertias",)
-    message = f"`{name}` does not come to rest: it still moves at {now}, and no torque slows it down"
-    cure = "more brake torque than the load drives with" if brake is not None else "add a `brakes` block"
+    message = f"`{name}` does not come to rest: it still moves at {now}, and no torque decelerates it"
+    cure = (
+        "increase the brake torque above the driving torque of the load"
+        if brake is not None
+        else "add a `brakes` block"
+    )
     return Failure("DRV110", message, path, cure)
 
 

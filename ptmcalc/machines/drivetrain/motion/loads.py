@@ -12,18 +12,16 @@ from ptmcalc.machines.drivetrain.wiring import GROUND
 
 START_TIME = LoadInfo("start_time", "starting time", units.TIME, governing=True)
 START_BY_TERMS = LoadInfo("start_time_by_terms", "starting time, efficiency per term", units.TIME)
-START_SHARE = LoadInfo("start_share", "share of the target speed reached", units.SHARE, governing=True)
+START_SHARE = LoadInfo("start_share", "final speed / target speed", units.SHARE, governing=True)
 STOP_TIME = LoadInfo("stop_time", "stopping time", units.TIME, governing=True)
 STOP_BY_TERMS = LoadInfo("stop_time_by_terms", "stopping time, efficiency per term", units.TIME)
-STOP_SHARE = LoadInfo("stop_speed_share", "speed left, relative to the initial speed", units.SHARE, governing=True)
+STOP_SHARE = LoadInfo("stop_speed_share", "residual speed / initial speed", units.SHARE, governing=True)
 STOP_ANGLE = LoadInfo("stop_angle", "stopping angle or distance", units.ANGLE, governing=True)
 PART_START_TIME = LoadInfo("part_start_time", "starting time", units.TIME, governing=True)
-PART_START_SHARE = LoadInfo("part_start_share", "share of the target speed reached", units.SHARE, governing=True)
+PART_START_SHARE = LoadInfo("part_start_share", "final speed / target speed", units.SHARE, governing=True)
 PART_STOP_TIME = LoadInfo("part_stop_time", "stopping time", units.TIME, governing=True)
-PART_STOP_SHARE = LoadInfo(
-    "part_stop_speed_share", "speed left, relative to the largest speed", units.SHARE, governing=True
-)
-CLUTCH_SLIP = LoadInfo("clutch_slip", "clutch slip speed / faster side", units.SHARE, governing=True)
+PART_STOP_SHARE = LoadInfo("part_stop_speed_share", "residual speed / maximum speed", units.SHARE, governing=True)
+CLUTCH_SLIP = LoadInfo("clutch_slip", "clutch slip speed / speed of the faster side", units.SHARE, governing=True)
 SPEED_MAX = LoadInfo("speed_max", "speed, maximum", units.ANGULAR_SPEED)
 SPEED_END = LoadInfo("speed_end", "final speed", units.ANGULAR_SPEED)
 SPEED_MIN = LoadInfo("speed_min", "speed, minimum", units.ANGULAR_SPEED, headline=False)

@@ -15,16 +15,16 @@ from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, Train
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:
-    """Loads of a scene with every link rigid and without play.
+    """Loads of a scene with rigid links without backlash.
 
         (sum J_i u_i^2, with efficiencies) e = sum of reduced torques
 
-    The efficiency of a gear goes by the direction of the power through it, of static and inertial torque together.
-    What is left of the freedom of the train, a clutch or a link to the ground, is kept.
+    The efficiency of a gear depends on the direction of the power of static and inertial torque together. Remaining
+    degrees of freedom, such as a clutch or a link to the ground, are included.
 
     **Range** any train.
-    **Error** bars from runs that divide time otherwise (`bars.loads`); what the links' elasticity changes is in the
-    bound of the effect `elasticity`.
+    **Error** error bars from runs with other time steps (`bars.loads`); the bound of the effect `elasticity` covers the
+    elasticity of the links.
     **Source** lecture notes Kramatorsk 2007 (reduction of masses); efficiency by the total torque, derived in
     `laws.gearing`.
     """
@@ -101,8 +101,10 @@ def _elastic(spec: Drivetrain, scene: TrainScene) -> Criterion:
     **Source** as `valid`.
     """
     if valid(spec, scene).exceeded and cost(spec, scene, frozenset(), 0) > simulation.BESIDE:
-        return Criterion("-", 1.0, 1.0, "the one shaft would take long to show", "")
-    return Criterion("-", 1.0 if not valid(spec, scene).exceeded else 0.0, 1.0, "the one shaft decides itself", "")
+        return Criterion("-", 1.0, 1.0, "the one-shaft model would take too long", "")
+    return Criterion(
+        "-", 1.0 if not valid(spec, scene).exceeded else 0.0, 1.0, "the one-shaft model decides itself", ""
+    )
 
 
 ONE_SHAFT: Solver[Drivetrain, TrainScene] = replace(

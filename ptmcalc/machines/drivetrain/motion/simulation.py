@@ -374,8 +374,8 @@ def remarks(scene: TrainScene, course: Course) -> Iterator[Finding]:
         if event.after == JAMMED:
             yield Finding(
                 "NUM104",
-                f"scene `{scene.label}`: {event.element} jams at {event.time:.4g} s: a self-locking gear cannot be"
-                " braked from its motor's side against so much inertia; it is taken to stop at once",
+                f"scene `{scene.label}`: {event.element} locks at {event.time:.4g} s: a self-locking gear cannot be"
+                " braked from its motor's side against this load inertia; an immediate stop is assumed",
                 ("gears", event.element),
             )
     for name, times in chattering(course).items():

@@ -11,12 +11,12 @@ from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 
 
 def heating_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Rated torque of all motors of a name.
+    """Rated torque of all motors of one name.
 
     **Range** motors whose rated torque is given or follows from power and speed.
     **Error** none.
-    **Source** IEC 60034-1: the rms torque of a cycle against the rated one, for motors whose loss goes with the square
-    of the torque.
+    **Source** IEC 60034-1: the rms torque of a cycle against the rated one, for motors with losses proportional to the
+    square of the torque.
     """
     return Estimate.exact(math.inf)
 
@@ -52,11 +52,11 @@ HEATING: AnyCheck = Check(
 
 
 def overload_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """The largest torque a motor may give for a short time, from the file.
+    """Permissible short-time motor torque, given in the file.
 
     **Range** motors with `largest_torque`.
     **Error** none.
-    **Source** the maker's overload limit.
+    **Source** the manufacturer's overload limit.
     """
     return Estimate.exact(math.inf)
 
@@ -85,14 +85,14 @@ OVERLOAD: AnyCheck = Check(
     what="The peak torque of every motor with `largest_torque` is at most this limit.",
     why="Above this limit, a motor stalls or its inverter trips.",
     formula="max |M(t)| <= M_max",
-    source="the maker's data",
+    source="the manufacturer's data",
 )
 
 
 def _at_least_all(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Braking torque of all motors at least as large as the overhauling torque.
+    """1: the braking torque of all motors is at least the overhauling torque.
 
-    **Range** motors that a load drives at their no-load speed.
+    **Range** motors driven by the load at their no-load speed.
     **Error** none.
     **Source** torque balance at steady speed.
     """
@@ -113,7 +113,7 @@ BRAKES: AnyCheck = Check(
     code="DRV111",
     title="motor braking torque reserve",
     question="Does the motor hold the overhauling load at its speed?",
-    failure="load drives the motor beyond its curve",
+    failure="load overcomes the braking torque of the motor",
     scenes=DRIVEN,
     loads=("braking_reserve",),
     sense=Sense.AT_LEAST,

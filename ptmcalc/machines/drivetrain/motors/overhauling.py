@@ -130,8 +130,8 @@ def seen(spec: Drivetrain, scene: TrainScene, course: Course) -> tuple[dict[str,
 def _failure(spec: Drivetrain, motor: tuple[str, MotorOn], speed: float) -> Failure:
     name, one = motor
     now = units.show(speed, units.ANGULAR_SPEED)
-    message = f"the load drives `{one.at}` at {now}, above the speed of the greatest braking torque of the motor"
-    return Failure("DRV111", message, path_of(spec, name), "more motor torque, or a brake", name)
+    message = f"the load drives `{one.at}` at {now}, above the speed of the maximum braking torque of the motor"
+    return Failure("DRV111", message, path_of(spec, name), "increase the motor torque, or add a brake", name)
 
 
 def path_of(spec: Drivetrain, name: str) -> KeyPath:

@@ -10,7 +10,8 @@ from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 
 
 def resonance_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Least distance of an exciting frequency from a natural one: 20 % of it unless the file says otherwise.
+    """Minimum separation of an excitation frequency from a natural frequency: 20 % of the natural frequency, or the
+    value of the file.
 
     **Range** harmonic excitations.
     **Error** none: an engineering choice.

@@ -21,16 +21,16 @@ _GIVEN = (*LOADS_OF_VIBRATION, WEAR, START_BY_TERMS, STOP_BY_TERMS, BRAKING)
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:
-    """Natural frequencies of the train with its play closed and nothing slipping, and what needs no motion beside them.
+    """Natural frequencies of the train with closed backlash and without slip, and loads that require no simulation.
 
-        det(K - w^2 M) = 0        distance = min_k |W/w_k - 1|        worn part = w/(pi m/2)
+        det(K - w^2 M) = 0        distance = min_k |W/w_k - 1|        wear share = w/(pi m/2)
 
-    Start and stop time by the textbook's reduction, every term with its own efficiency, have no bound and are only
-    shown (`machines.drivetrain.motion.by_terms`).
+    Starting and stopping times by the textbook reduction, with an efficiency per term, have no bound and are shown only
+    (`machines.drivetrain.motion.by_terms`).
 
-    **Range** links in contact; damping below a tenth of the critical one moves a frequency by less than 0.5 %.
+    **Range** links in contact; damping below a tenth of critical damping changes a frequency by less than 0.5 %.
     **Error** rounding.
-    **Source** linear vibration; zero frequencies of a train that can travel are counted, not computed.
+    **Source** linear vibration; zero frequencies of rigid-body motion are counted, not computed.
     """
     found = frequencies(case_of(spec, scene, backlash=False).train)
     loads = {of("natural_frequency", str(k)): Found(Estimate.exact(float(w))) for k, w in enumerate(found, 1)}

@@ -43,10 +43,10 @@ def _gearbox(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
 
 
 def _reserve_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Least mean starting torque over that of the load, 1.4 by default.
+    """Minimum ratio of mean starting torque to load torque, 1.4 by default.
 
-    **Range** motors that start under the hanging load.
-    **Error** none: an engineering rule; FEM 9.683 asks 1.4 to 1.6 by the kind of motor.
+    **Range** motors that start with the suspended load.
+    **Error** none: an engineering rule; FEM 9.683 requires 1.4 to 1.6, depending on the type of motor.
     **Source** handbooks of lifting machines.
     """
     return Estimate.exact(spec.checks.motor_reserve)
@@ -80,7 +80,7 @@ WEAK: OneCheck = only(_raised)(
 
 
 def _excess_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Largest mean starting torque over that of the load, 4 by default.
+    """Maximum ratio of mean starting torque to load torque, 4 by default.
 
     **Range** any motor.
     **Error** none: an engineering rule; 1.6 to 2.5 is usual.
@@ -111,9 +111,9 @@ EXCESS: OneCheck = only(_driven)(
 
 
 def _heating_limit(spec: Hoist, scene: Run) -> Estimate:
-    """All that the rating allows at the duty factor of the file.
+    """The full rating at the duty factor of the file.
 
-    **Range** ratings at another duty factor are converted with the motor's cooling at rest.
+    **Range** ratings at another duty factor are converted with the cooling of the motor at standstill.
     **Error** none: a definition.
     **Source** IEC 60034-1; `laws.duty.permissible_torque`.
     """
@@ -152,11 +152,11 @@ HEATING: OneCheck = only(_on_duty)(
 
 
 def _starts_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Starts per hour that the maker allows.
+    """Permitted starts per hour of the manufacturer.
 
-    **Range** motors switched on and off; 150, 300 and 600 per hour are usual.
+    **Range** motors that are switched on and off; 150, 300 and 600 per hour are usual.
     **Error** none: a given value.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     allowed = spec.motor.starts_per_hour if spec.motor is not None else None
     return Estimate.exact(math.inf if allowed is None else allowed)
@@ -182,17 +182,17 @@ STARTS: OneCheck = only(_starts_wanted)(
         what="The number of motor starts per hour is at most the manufacturer's limit.",
         why="Each start heats the rotor and wears brake and contactor.",
         formula="Z <= Z_max",
-        source="the maker's data; IEC 60034-1, duty types S4 and S5",
+        source="the manufacturer's data; IEC 60034-1, duty types S4 and S5",
     )
 )
 
 
 def _brake_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Least brake torque over that of the load: by the group, or of the file; 1.5 without a group.
+    """Minimum ratio of brake torque to load torque: by the group, or from the file; 1.5 without a group.
 
     **Range** holding brakes of hoists: 1.5 up to M4, 1.75 in M5, 2 in M6, 2.5 in M7 and M8.
     **Error** none: a table, to be confirmed; national rules differ.
-    **Source** rules for cranes in the east of Europe, quoted from handbooks.
+    **Source** eastern European crane rules, quoted from handbooks.
     """
     asked, group = spec.checks.brake_reserve, spec.classes.mechanism
     return Estimate.exact(asked if asked is not None else hoist_class.BRAKE_RESERVE[group or "M1"])
@@ -237,11 +237,11 @@ BRAKE: OneCheck = only(_brake_wanted)(
 
 
 def _heat_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Heat the rotor may take up in one start, from its data sheet.
+    """Permissible rotor heat per start, from the data sheet.
 
-    **Range** motors whose rotor takes up the heat of slip itself.
+    **Range** motors with the slip losses inside the rotor.
     **Error** none: a given value.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     allowed = spec.motor.start_heat if spec.motor is not None else None
     return Estimate.exact(math.inf if allowed is None else allowed)
@@ -268,16 +268,16 @@ START_HEAT: OneCheck = only(_heat_wanted)(
         why="In a start, the rotor of a cage motor absorbs at least the energy that the moving masses receive. Excess"
         " heat damages the rotor.",
         formula="J w_0^2/2/(1 - M_load/M_mean) <= A",
-        source="energy of the slip; the maker's data",
+        source="energy of the slip; the manufacturer's data",
     )
 )
 
 
 def _overhauling_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Braking torque of the motors at least that of the load they lower.
+    """1: the braking torque of the motors is at least the torque of the lowered load.
 
-    **Range** motors of which the file gives a curve.
-    **Error** none: a balance.
+    **Range** motors with a curve in the file.
+    **Error** none: an equilibrium.
     **Source** balance of torques on the motor shaft.
     """
     return Estimate.exact(1.0)
@@ -299,7 +299,7 @@ OVERHAULED: OneCheck = only(_lowered)(
         code="HST127",
         title="motor braking torque reserve",
         question="Does the motor hold the overhauling load at its speed?",
-        failure="load drives the motor beyond its curve",
+        failure="load overcomes the braking torque of the motor",
         scenes=frozenset({Run, Start}),
         loads=("overhauling_reserve",),
         sense=Sense.AT_LEAST,

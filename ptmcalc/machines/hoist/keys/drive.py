@@ -31,11 +31,11 @@ class Gearbox(drive.Gear):
     """from drum to motor; 2 - 1/efficiency when left out, negative for a self-locking gear"""
     stiffness: Annotated[
         Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None,
-        Absent("rigid: impacts in the gear are only checked with it"),
+        Absent("rigid; impacts in the gear are checked only with this key"),
     ] = None
     """of shafts and gear between rotor and drum, on the drum shaft; rigid when left out"""
     backlash: Annotated[
-        float, Measure(units.ANGLE, at_least=0), Absent("no backlash: its impact is only checked with it")
+        float, Measure(units.ANGLE, at_least=0), Absent("no backlash; its impact is checked only with this key")
     ] = 0.0
     """total backlash between rotor and drum, as an angle of the drum"""
     damping: Annotated[
@@ -43,7 +43,7 @@ class Gearbox(drive.Gear):
         Measure(units.RATIO, at_least=0, at_most=1),
         Assumed(0.03, 0.02, 0.1, "damping ratio of shafts and teeth: 0.02 to 0.1"),
     ] = 0.03
-    """damping ratio of the swing of the rotor against the drum; shafts and teeth have 0.02 to 0.1"""
+    """damping ratio of the rotor oscillation against the drum; 0.02 to 0.1 for shafts and gears"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -61,59 +61,59 @@ class Brake(Fragment):
     torque: PositiveTorque
     """of all brakes together, fully applied"""
     shaft: Literal["motor", "drum"] = "motor"
-    """the shaft it sits on"""
+    """shaft of the brake"""
     delay: Annotated[
         Time, Assumed(0.0, 0.0, 0.3, "brakes released by a magnet or thruster close within 0.1 to 0.3 s")
     ] = 0.0
-    """from switching off until it begins to act"""
+    """from switch-off to the start of the braking torque"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
-    """from then until its full torque"""
+    """from then to full torque"""
     rise: Literal["linear", "exponential"] = "linear"
     """how it rises; `rise_time` is the time constant of an exponential rise"""
 
 
 class Classes(Fragment):
-    """What the hoist is classed as."""
+    """Classification of the hoist."""
 
     mechanism: Mechanism | None = None
-    """group of the mechanism, M1 to M8; needed for the limits of rope, drum and sheaves"""
+    """mechanism group, M1 to M8; needed for the limits of rope, drum and sheaves"""
     hoisting: Literal["HC1", "HC2", "HC3", "HC4"] | None = None
-    """hoisting class, with `drive` for the standard's factor of lifting a load off the ground"""
+    """hoisting class; with `drive` it determines phi_2 of the standard"""
     drive: Literal["HD1", "HD2", "HD3", "HD4", "HD5"] = "HD1"
-    """how the hoisting speed is controlled; HD1 has no creep speed"""
+    """hoist drive class; HD1 has no creep speed"""
     edition: Literal["by_class", "by_drive", "raised"] = "by_class"
-    """smallest phi_2, in which sources differ: by the hoisting class alone (ISO 8686-1), 1.05 for the drives HD3 and
+    """minimum phi_2, different in the sources: by the hoisting class alone (ISO 8686-1), 1.05 for the drives HD3 and
     HD5 (`by_drive`), or 1.1 to 1.4 for HD1 (`raised`)"""
     combination: Literal["regular", "exceptional"] = "regular"
     """lift-off speed of the load combinations A1 and B1, or of C1"""
     dangerous_load: Literal["yes", "no"] = "no"
-    """molten metal or as dangerous a load: a quarter more rope safety, group M5 at least"""
+    """molten metal or a similarly dangerous load: 25 % more rope safety, at least group M5"""
 
 
 class SpectrumPoint(Fragment):
-    """A part of the hoist's working life."""
+    """A part of the load spectrum."""
 
     share: PositiveShare
     """of all cycles"""
     load: Share
-    """over the rated load"""
+    """relative to the rated load"""
 
 
 class Duty(Fragment):
-    """What the hoist does all day."""
+    """Duty of the hoist."""
 
     type: Literal["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10"] = "S3"
     """duty type of IEC 60034-1"""
     factor: Annotated[PositiveShare | None, Assumed()] = None
-    """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
+    """cyclic duration factor of the motor; 40 % is assumed when it is left out"""
     starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
-    """loads over the life; the rated load always, when left out"""
+    """load spectrum of the service life; default: always the rated load"""
     hours: Annotated[RunningTime | None, Limit()] = None
-    """time in motion in the life, which with the spectrum gives the group of the mechanism"""
+    """operating time in the service life; with the spectrum it determines the mechanism group"""
     cycles: Annotated[Annotated[float, Measure(units.FACTOR, above=0)] | None, Limit()] = None
-    """hoisting cycles in the life, which with the spectrum give the group of the crane"""
+    """working cycles in the service life; with the spectrum they determine the crane group"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -123,7 +123,7 @@ class Duty(Fragment):
         known = [share for share in shares if share is not None]
         if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
             reason = f"the shares add up to {sum(known):.3g}"
-            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
+            yield Conflict(("load_spectrum",), reason, "correct them to a sum of 1, so that every cycle has a load")
         kind = given.word("type")
         if kind is None:
             return

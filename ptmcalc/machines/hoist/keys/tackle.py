@@ -33,29 +33,29 @@ Wraps = Annotated[float, Measure(units.FACTOR, at_least=0, at_most=100)]
 
 
 class Reeving(Fragment):
-    """How the rope runs between drum, sheaves and hook block."""
+    """Reeving between drum, sheaves and hook block."""
 
     falls: Annotated[int, Field(strict=True)]
-    """parts of rope the load hangs on, all together"""
+    """total number of rope falls at the hook block"""
     ropes: Literal[1, 2] = 1
-    """parts of rope that run onto the drum: 2 for a twin tackle with an equalising sheave"""
+    """number of ropes on the drum: 2 for a twin reeving with an equalising sheave"""
     sheave_efficiency: Annotated[Efficiency | None, Assumed()] = None
-    """of a sheave in the tackle; 0.98 is assumed when it is left out"""
+    """of a sheave of the reeving; 0.98 is assumed when it is left out"""
     deflection_sheaves: Annotated[
-        int, Field(ge=0, le=40, strict=True), Absent("no sheaves between drum and tackle")
+        int, Field(ge=0, le=40, strict=True), Absent("no sheaves between drum and hook block reeving")
     ] = 0
-    """sheaves between drum and tackle that only turn the rope, on each rope"""
+    """deflection sheaves between drum and hook block reeving, per rope"""
     deflection_efficiency: Annotated[Efficiency | None, Assumed()] = None
-    """of a deflection sheave; that of the tackle's sheaves when left out"""
+    """of a deflection sheave; default: that of the reeving sheaves"""
     sheave_diameter: Annotated[PositiveLength | None, Checked()] = None
-    """of the sheaves of the tackle at the bottom of the groove; needed to check how sharply they bend the rope"""
+    """of the sheaves at the bottom of the groove; needed to check the sheave ratio"""
     equaliser_diameter: Annotated[PositiveLength | None, Checked()] = None
     """of the equalising sheave at the bottom of the groove"""
-    lead_length: Annotated[Span, Absent("the rope falls straight to the hook block, which is stiffest")] = 0.0
-    """rope between the drum and the tackle: to the first sheave; 0 where it falls straight to the hook block"""
-    lead_offset: Annotated[Span, Setting("the middle of the travel, as drums are laid out")] = 0.0
-    """of the first sheave, or that of the hook block, from the middle of the rope's travel along the drum, towards the
-    turns wound last"""
+    lead_length: Annotated[Span, Absent("vertical falls to the hook block, the stiffest case")] = 0.0
+    """rope length between drum and first sheave; 0 for a vertical fall to the hook block"""
+    lead_offset: Annotated[Span, Setting("the middle of the rope travel, the usual drum layout")] = 0.0
+    """offset of the first sheave, or of the hook block, from the middle of the rope travel along the drum, towards the
+    last wraps"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -64,12 +64,12 @@ class Reeving(Fragment):
         if falls is None:
             return
         if falls < 1:
-            reason = f"a load does not hang on {falls} parts of rope"
-            yield Conflict(("falls",), reason, "write the number of parts the hook block hangs on, e.g. `falls: 4`")
+            reason = f"a load cannot hang on {falls} rope falls"
+            yield Conflict(("falls",), reason, "write the number of falls at the hook block, e.g. `falls: 4`")
         elif falls > MOST_FALLS:
-            yield Conflict(("falls",), f"no tackle has {falls} falls", f"write at most `falls: {MOST_FALLS}`")
+            yield Conflict(("falls",), f"{falls} falls are too many", f"write at most `falls: {MOST_FALLS}`")
         elif ropes == 2 and falls % 2:
-            reason = f"{falls} falls do not share out on two ropes"
+            reason = f"{falls} falls cannot be divided between two ropes"
             yield Conflict(("falls",), reason, f"write `falls: {falls + 1}`, or `ropes: 1`")
 
 
@@ -79,11 +79,11 @@ class Rope(Fragment):
     diameter: PositiveLength
     """nominal diameter"""
     construction: Annotated[str, Field(max_length=200)] = ""
-    """what the maker calls it, e.g. `6x36WS-IWRC 1960 sZ`"""
+    """designation of the manufacturer, e.g. `6x36WS-IWRC 1960 sZ`"""
     area: Annotated[PositiveArea | None, OneOf("fill_factor")] = None
     """metallic area, or give `fill_factor`"""
     fill_factor: Annotated[PositiveFraction | None, Assumed()] = None
-    """metallic area over that of the circle round the rope; 0.5 is assumed when neither is given"""
+    """metallic area / area of the circumscribed circle; 0.5 is assumed when neither is given"""
     modulus: Annotated[PositiveStress | None, Assumed()] = None
     """modulus of elasticity of the rope on its metallic area, not of its wire; 105 GPa is assumed when left out"""
     mass: Annotated[PositiveLineMass | None, Assumed()] = None
@@ -92,8 +92,8 @@ class Rope(Fragment):
     """minimum breaking force; needed to check the safety of the rope"""
     rotation_resistant: Literal["yes", "no"] = "no"
     """whether it is a rotation-resistant rope, which has a smaller permissible fleet angle"""
-    damping: Annotated[Fraction, Absent("without damping, forces are largest")] = 0.0
-    """damping ratio of the load on its rope; without any, as when left out, forces come out largest"""
+    damping: Annotated[Fraction, Absent("without damping, forces are maximum")] = 0.0
+    """damping ratio of the load on its rope; 0 when left out, on the safe side"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -105,34 +105,34 @@ class Drum(Fragment):
     """The drum."""
 
     diameter: PositiveLength
-    """of the surface below the rope: the bottom of the grooves"""
+    """at the bottom of the grooves"""
     length: PositiveLength
-    """along the axis, of the part one rope is wound on"""
+    """axial length of the part for one rope"""
     surface: Literal["grooved", "smooth"] = "grooved"
     """of the barrel"""
     pitch: Annotated[PositiveLength | None, Assumed()] = None
-    """from turn to turn; of a grooved drum 1.12 rope diameters are assumed when left out, of a smooth one they touch"""
+    """groove pitch; default: 1.12 rope diameters on a grooved drum, the rope diameter on a smooth drum"""
     layers: Annotated[int, Field(ge=1, le=20, strict=True), Absent("a drum for one layer")] = 1
-    """layers of rope the drum is made for"""
+    """number of rope layers of the drum design"""
     dead_wraps: Annotated[Wraps, Assumed(3.0, 2.0, 5.0, "EN 14492-2: at least two dead wraps; three in practice")] = 3.0
-    """turns that stay on the drum with the hook at its lowest"""
+    """dead wraps with the hook at its lowest position"""
     flange_height: Annotated[PositiveLength | None, Checked()] = None
     """of the flanges above the surface; needed for more than one layer"""
     shell_thickness: Annotated[PositiveLength | None, Checked()] = None
     """of the shell below the grooves; needed to check its stress"""
     inertia: Annotated[Inertia | None, Assumed()] = None
-    """of drum and what turns with it, on its shaft; 0 when left out"""
+    """of drum and attached parts, on the drum shaft; 0 when left out"""
 
 
 class Structure(Fragment):
-    """What the hoist stands on: a bridge, a jib, a trestle. Without it the hoist is held fast."""
+    """The supporting structure: a bridge, a jib, a trestle. Without it the support is rigid."""
 
     stiffness: PositiveStiffness
-    """force over deflection where the hoist stands"""
-    mass: Annotated[Mass, Absent("without mass the structure follows at once")] = 0.0
-    """that moves with it; of a simple bridge about half of its own, and the trolley"""
-    damping: Annotated[Fraction, Absent("without damping, forces are largest")] = 0.0
-    """damping ratio of its own vibration"""
+    """force / deflection at the hoist"""
+    mass: Annotated[Mass, Absent("a massless structure follows at once")] = 0.0
+    """effective mass; for a simple bridge about half of its mass, plus the trolley"""
+    damping: Annotated[Fraction, Absent("without damping, forces are maximum")] = 0.0
+    """damping ratio of its vibration"""
 
 
 class Limiter(Fragment):
@@ -143,11 +143,11 @@ class Limiter(Fragment):
         Measure(units.FACTOR, above=0),
         Assumed(1.1, 1.1, 1.25, "EN 14492-2: set between 1.1 and 1.25 of the rated load"),
     ] = 1.1
-    """force in the rope at which it trips, over the static one of the rated load"""
+    """trip force of the rope / static force of the rated load"""
     delay: Annotated[
         float, Measure(units.TIME, at_least=0), Assumed(0.0, 0.0, 0.2, "contactors and load cells: up to 0.2 s")
     ] = 0.0
-    """from then until the motor is off and the brake receives its command"""
+    """from tripping to motor switch-off and brake command"""
 
 
 class Winding(Fragment):
@@ -156,20 +156,22 @@ class Winding(Fragment):
     packing: Literal["nested", "square"] = "nested"
     """`nested`: a layer is in the valleys of the one below; `square`: on top of it"""
     crossovers: Annotated[
-        int, Field(ge=1, le=4, strict=True), Setting("two crossovers a turn, as of drums grooved parallel")
+        int, Field(ge=1, le=4, strict=True), Setting("two crossovers per turn, as on drums with parallel grooves")
     ] = 2
-    """places in a turn where the rope climbs over to the next valley"""
+    """crossovers per turn to the next groove"""
     crossover: Annotated[Annotated[float, Measure(units.ANGLE, above=0)] | None, Assumed()] = None
-    """angle of the drum over which a crossover reaches; 60 deg is assumed when it is left out"""
-    paper_modulus: Annotated[PositiveStress | None, Setting("of a textbook formula, which decides nothing")] = None
-    """modulus in the formula of the winding paper, which takes that of the wire, 210 GPa, when left out"""
+    """drum angle of a crossover; 60 deg is assumed when it is left out"""
+    paper_modulus: Annotated[PositiveStress | None, Setting("value of a textbook formula that decides no verdict")] = (
+        None
+    )
+    """modulus in the formula of the winding paper; default: that of the wire, 210 GPa"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Between the crossovers the rope lies in its valleys."""
         arc, count = given.number("crossover"), whole(given, "crossovers") or 2
         if arc is not None and count > 0 and arc * count >= 2 * math.pi:
-            reason = f"{count} crossovers of {units.show(arc, units.ANGLE)} take more than the whole turn"
+            reason = f"{count} crossovers of {units.show(arc, units.ANGLE)} exceed one turn"
             yield Conflict(("crossover",), reason, "write e.g. `crossover: 60 deg`")
 
 
@@ -181,12 +183,12 @@ def _why_not_wound(pitch: float, d: float, layers: int, nested: bool) -> str | N
     """
     thick, found = units.show(d, units.LENGTH), units.show(pitch, units.LENGTH)
     if pitch < d:
-        return f"turns of a rope of {thick} are at least its diameter apart, not {found}"
+        return f"the pitch of a rope of {thick} is at least its diameter, not {found}"
     if pitch >= 2 * d:
-        return f"turns of a rope of {thick} are less than two of its diameters apart, not {found}: another fits between"
+        return f"the pitch of a rope of {thick} is less than two diameters, not {found}: another wrap would fit between"
     if nested and layers > 2 and pitch > math.sqrt(3) * d:
         most = units.show(math.sqrt(3) * d, units.LENGTH)
-        return f"a third nested layer of a rope of {thick} needs turns at most {most} apart, not {found}"
+        return f"a third nested layer of a rope of {thick} requires a pitch of at most {most}, not {found}"
     return None
 
 
@@ -205,7 +207,7 @@ def layers_that_do_not_fit(drum: Given, rope: Given, nested: bool) -> Iterator[C
         return
     thick, size = units.show(d, units.LENGTH), units.show(big, units.LENGTH)
     if d >= big:
-        reason = f"a rope of {thick} is not wound on a drum of {size}"
+        reason = f"a rope of {thick} cannot be wound on a drum of {size}"
         yield Conflict(("drum", "diameter"), reason, f"write e.g. `diameter: {units.show(18 * d, units.LENGTH)}`")
         return
     pitch, length, layers = drum.number("pitch"), drum.number("length"), whole(drum, "layers") or 1
@@ -213,17 +215,17 @@ def layers_that_do_not_fit(drum: Given, rope: Given, nested: bool) -> Iterator[C
         yield Conflict(("drum", "pitch"), unwound, f"write e.g. `pitch: {units.show(1.12 * d, units.LENGTH)}`")
         return
     if length is not None and length < 3 * (pitch or d):
-        reason = "it does not take three turns of the rope side by side"
+        reason = "it is too short for three adjacent wraps of the rope"
         yield Conflict(("drum", "length"), reason, f"write e.g. `length: {units.show(20 * d, units.LENGTH)}`")
     flange = drum.number("flange_height")
     if layers > 1 and "flange_height" not in drum:
         example = units.show(layers * d + 2 * d, units.LENGTH)
-        reason = f"{layers} layers are held by flanges: their height is missing"
+        reason = f"{layers} layers require flanges: their height is missing"
         yield Conflict(("drum", "layers"), reason, f"add `flange_height: {example}`")
     step = d if not nested else (d**2 - ((pitch or d) / 2) ** 2) ** 0.5
     if flange is not None and layers > 1 and d + (layers - 1) * step > flange:
         holds = 1 + int((flange - d) / step) if flange >= d else 0
-        reason = f"the flanges of {units.show(flange, units.LENGTH)} hold {holds} layers, not {layers}"
+        reason = f"flanges of {units.show(flange, units.LENGTH)} are high enough for {holds} layers, not {layers}"
         needed = units.show(d + (layers - 1) * step + 1.5 * d, units.LENGTH)
         fix = f"write `layers: {holds}`, or" if holds else "write"
         yield Conflict(("drum", "layers"), reason, f"{fix} `flange_height: {needed}`")

@@ -26,13 +26,13 @@ time is no lift."""
 
 
 def _factor_limit(spec: Hoist, scene: Lift) -> Estimate:
-    """Factor of the file, else phi_2 of the hoisting class, in the edition and load combination of the file.
+    """Factor of the file, otherwise phi_2 of the hoisting class for the edition and load combination of the file.
 
         phi_2 = phi_2,min + beta_2 v_h
 
     **Range** a file that gives one of them.
     **Error** none: a chosen limit.
-    **Source** EN 13001-2 and ISO 8686-1; `laws.lift_off_standard` on what editions differ in.
+    **Source** EN 13001-2 and ISO 8686-1; `laws.lift_off_standard` for the differences between editions.
     """
     given = spec.checks.lift_off_factor
     return Estimate.exact(given if given is not None else model.class_factor(spec) or math.inf)
@@ -79,11 +79,11 @@ LIFT_OFF: Check[Hoist, Lift] = Check(
 
 
 def _lift_limit(spec: Hoist, scene: Lift) -> Estimate:
-    """An hour: a load that is not lifted by then never is.
+    """One hour: a load not lifted within it counts as never lifted.
 
     **Range** any lift.
     **Error** none.
-    **Source** a stalled motor burns within minutes.
+    **Source** a stalled motor overheats within minutes.
     """
     return Estimate.exact(_HOUR)
 
@@ -120,7 +120,7 @@ STALL: Check[Hoist, Lift] = Check(
     " hour counts as a stall.",
     why="A motor that stalls with a taut rope overheats, and the load stays on the ground.",
     formula="t(F = Q) finite",
-    source="motion of drive and load; the phase of a stall stands in the findings",
+    source="motion of drive and load; the findings state the phase of a stall",
 )
 
 # -- stops ----------------------------------------------------------------------------------------------------------
@@ -217,11 +217,11 @@ HARD: Check[Hoist, Moving] = Check(
 
 
 def _slack_limit(spec: Hoist, scene: Moving) -> Estimate:
-    """Least rope force over the weight, of the file or a twentieth.
+    """Minimum ratio of rope force to weight, from the file or 0.05.
 
-    **Range** a load that hangs all the time.
+    **Range** a load that is suspended throughout.
     **Error** none: a chosen limit.
-    **Source** practice: a rope without force leaves its groove and snatches.
+    **Source** practice: a slack rope leaves its groove and is loaded by an impact.
     """
     return Estimate.exact(spec.checks.rope_share)
 
@@ -248,11 +248,11 @@ SLACK: Check[Hoist, Moving] = Check(
 
 
 def _released_limit(spec: Hoist, scene: Release) -> Estimate:
-    """No force at all: below it the rope is slack.
+    """0: below zero the rope is slack.
 
     **Range** any release.
     **Error** none: a definition.
-    **Source** a rope never pushes.
+    **Source** a rope carries no compression.
     """
     return Estimate.exact(0.0)
 
@@ -265,7 +265,7 @@ def _share_key(spec: Hoist, scene: Release) -> KeyPath:
 
 SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
     code="HST126",
-    title="rope force ratio after load release",
+    title="minimum rope force after load release",
     question="Does the rope stay taut when part of the load is released?",
     failure="rope force after the release falls below its limit",
     limit_state=LimitState("rope goes slack", 0),
@@ -284,9 +284,9 @@ SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
 
 
 def _impact_limit(spec: Hoist, scene: Moving) -> Estimate:
-    """Torque of the gear over that of the even motion, of the file or 3.
+    """Permissible ratio of gear torque to steady gear torque, from the file or 3.
 
-    **Range** gears with or without play.
+    **Range** gears with or without backlash.
     **Error** none: a chosen limit.
     **Source** factor phi_5 of EN 13001-2 for drives with considerable backlash: 3.
     """

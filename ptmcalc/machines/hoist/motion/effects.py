@@ -82,13 +82,13 @@ def _anything(loads: Loads) -> Offsets:
 
 
 def rope_criterion(spec: Hoist, scene: Moving) -> Criterion:
-    """How much the elastic rope adds to the weight.
+    """Force added by the elastic rope, relative to the weight.
 
         max( v_1 (K M)^(1/2)/Q,  2 |P/Q - 1| M/(m_1 + M) )
 
-    v_1 is the drive's speed at lift-off (`two_mass.takeup`), in a stop or start the speed of the hook.
+    v_1 is the drive speed at lift-off (`two_mass.takeup`), in a stop or start the speed of the hook.
 
-    **Range** every scene of motion; it is in every run.
+    **Range** every scene with motion; every run includes this effect.
     **Error** an engineering measure.
     **Source** `laws.lift_off.elasticity_number`.
     """
@@ -106,27 +106,25 @@ def rope_criterion(spec: Hoist, scene: Moving) -> Criterion:
         value = lift_off.elasticity_number(
             speed, one.drive_force, one.weight, one.drive_mass, one.load_mass, one.stiffness
         )
-    return Criterion(
-        "Π_e", value, ELASTIC_THRESHOLD, "dynamic part of the rope force, over the weight", "laws.lift_off"
-    )
+    return Criterion("Π_e", value, ELASTIC_THRESHOLD, "dynamic rope force / weight", "laws.lift_off")
 
 
 def anything_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing is known of a hoist without this.
+    """No bound: a hoist motion cannot be computed without this effect.
 
     **Range** every load of motion.
     **Error** unbounded.
-    **Source** there is no run that leaves it out.
+    **Source** no run neglects this effect.
     """
     return _anything(loads)
 
 
 def drive_criterion(spec: Hoist, scene: Moving) -> Criterion:
-    """How far the drive departs from one that keeps its speed.
+    """Deviation of the drive from a constant-speed source.
 
         M/m_1 max(1, (2 P/Q - 1)/Pi^2),   Pi = v_0 (K M)^(1/2)/Q
 
-    **Range** every scene of motion; it is in every run.
+    **Range** every scene with motion; every run includes this effect.
     **Error** an engineering measure.
     **Source** `laws.lift_off.drive_mass_number`.
     """
@@ -137,7 +135,7 @@ def drive_criterion(spec: Hoist, scene: Moving) -> Criterion:
         if one.drive_mass
         else 0.0
     )
-    return Criterion("Π_m", value, DRIVE_THRESHOLD, "what the drive gains or loses in speed", "laws.lift_off")
+    return Criterion("Π_m", value, DRIVE_THRESHOLD, "speed change of the drive", "laws.lift_off")
 
 
 ROPE_ELASTICITY: Effect[Hoist, Moving] = Effect(
@@ -151,7 +149,7 @@ DRIVE_MOTION: Effect[Hoist, Moving] = Effect(
 
 
 def structure_criterion(spec: Hoist, scene: Moving) -> Criterion:
-    """How far the structure takes part, by compliance and by mass.
+    """Participation of the structure by compliance and mass.
 
         max( K/K_b, m_b/M )
 
@@ -164,15 +162,15 @@ def structure_criterion(spec: Hoist, scene: Moving) -> Criterion:
         one = reduced(spec, scene)
         value = max(lift_off.structure_number(one.stiffness, given.stiffness, given.mass, one.load_mass))
     return Criterion(
-        "K/K_b, m_b/M", value, STRUCTURE_THRESHOLD, "rope stiffness and load over the structure's", "laws.lift_off"
+        "K/K_b, m_b/M", value, STRUCTURE_THRESHOLD, "rope stiffness and load relative to the structure", "laws.lift_off"
     )
 
 
 def structure_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing where the structure is rigid; of one that gives, with or without mass, nothing is known without it.
+    """Zero if the structure is rigid; otherwise unbounded, with or without mass.
 
     **Range** every load of motion.
-    **Error** exact for a rigid structure; else unbounded, as springs in series can be too low.
+    **Error** exact for a rigid structure; otherwise unbounded, because springs in series may underestimate the force.
     **Source** case of a bridge with mass: 1.46 on the bridge, 1.33 in the rope, 1.29 by springs in series.
     """
     return _anything(loads) if spec.structure is not None else {}
@@ -186,7 +184,7 @@ STRUCTURE: Effect[Hoist, Moving] = Effect(
 
 
 def gear_criterion(spec: Hoist, scene: Moving) -> Criterion:
-    """Stiffness of the rope over that of the gear, both on the drum shaft.
+    """Ratio of rope stiffness to gear stiffness, both at the drum shaft.
 
         K R^2/C
 
@@ -197,15 +195,15 @@ def gear_criterion(spec: Hoist, scene: Moving) -> Criterion:
     gear = spec.gearbox
     stiff = math.inf if gear is None or gear.stiffness is None else gear.stiffness
     value = reduced(spec, scene).stiffness * travel(spec, scene) ** 2 / stiff
-    return Criterion("K R²/C", value, GEAR_THRESHOLD, "rope stiffness over the gear's", "springs in series")
+    return Criterion("K R²/C", value, GEAR_THRESHOLD, "rope stiffness / gear stiffness", "springs in series")
 
 
 def gear_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing where the file gives no stiffness of the gear; else nothing is known without it.
+    """Zero if the file gives no gear stiffness; otherwise unbounded.
 
     **Range** every load of motion.
-    **Error** exact for a rigid gear; else unbounded: its own vibration is as large as the step of torque.
-    **Source** two-mass train behind a step of torque.
+    **Error** exact for a rigid gear; otherwise unbounded: the gear oscillation is as large as the torque step.
+    **Source** two-mass train under a torque step.
     """
     elastic = spec.gearbox is not None and spec.gearbox.stiffness is not None
     return _anything(loads) if elastic else {}
@@ -217,11 +215,11 @@ GEAR_ELASTICITY: Effect[Hoist, Moving] = Effect(
 
 
 def backlash_criterion(spec: Hoist, scene: Moving) -> Criterion:
-    """What the run through the play adds to the torque of the gear.
+    """Torque added to the gear by the passage through its backlash.
 
         Pi_b = (2 C D/M) (J1 + J2)/J2,   all on the drum shaft
 
-    **Range** a play that the drive closes under its mean torque; 0 without play.
+    **Range** a backlash that the drive closes with its mean torque; 0 without backlash.
     **Error** exact for two inertias under a constant torque.
     **Source** `laws.backlash.backlash_number`; the threshold of 0.1 adds 2.4 %.
     """
@@ -237,10 +235,10 @@ def backlash_criterion(spec: Hoist, scene: Moving) -> Criterion:
 
 
 def backlash_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing where there is no play; else nothing is known without it.
+    """Zero without backlash; otherwise unbounded.
 
     **Range** every load of motion.
-    **Error** exact without play; else unbounded, as torques that change sign open it again.
+    **Error** exact without backlash; otherwise unbounded, because torques that change sign open it again.
     **Source** `laws.backlash`.
     """
     gear = spec.gearbox
@@ -255,30 +253,30 @@ BACKLASH: Effect[Hoist, Moving] = Effect(
 
 
 def rope_mass_criterion(spec: Hoist, scene: Moving) -> Criterion:
-    """Mass of the hanging rope over the load.
+    """Ratio of the suspended rope mass to the load.
 
         m_r/M
 
-    **Range** every scene of motion.
+    **Range** every scene with motion.
     **Error** an engineering measure.
-    **Source** `laws.rope_rod`: a rope without mass is 0.8 % too fast at 0.05.
+    **Source** `laws.rope_rod`: the frequency of a massless rope is 0.8 % too high at 0.05.
     """
     value = rope_mass(spec, scene) / reduced(spec, scene).load_mass
-    return Criterion("m_r/M", value, ROPE_MASS_THRESHOLD, "mass of the hanging rope over the load", "laws.rope_rod")
+    return Criterion("m_r/M", value, ROPE_MASS_THRESHOLD, "mass of the suspended rope / load", "laws.rope_rod")
 
 
 def rope_mass_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
-    """What waves along the rope can add.
+    """Bound of the force added by waves along the rope.
 
-        |dF| <= c D (m_r/M)^(1/2),   D dynamic part of the force;   c = 3, or 8 where the rope goes slack in between
-        w lower by at most what the rod between its end masses has it lower
+        |dF| <= c D (m_r/M)^(1/2),   D dynamic part of the force;   c = 3, or 8 if the rope goes slack in between
+        w lower by at most the reduction for a rod between its end masses
 
-    The first wave of a snatch, v (K m_r)^(1/2), is the dynamic part of a speed source times (m_r/M)^(1/2).
+    The first wave of a sudden loading, v (K m_r)^(1/2), is the dynamic part of a speed source times (m_r/M)^(1/2).
 
     **Range** ropes up to the mass of their load.
     **Error** calibrated: on a seeded sample of chains of forty masses the ratio was at most 1.8 with a taut rope and
-    4.0 with one that snatches; times shift by four transits of a wave at most, 2.5 on the sample; the frequency is
-    exact for a rigid gear and structure.
+    4.0 with a slack rope; times shift by at most four wave transits, 2.5 in the sample; the frequency is exact for a
+    rigid gear and structure.
     **Source** `laws.rope_rod.snatch_wave_force`; numbers of the sample.
     """
     one = reduced(spec, scene)
@@ -382,32 +380,37 @@ def _length(spec: Hoist, scene: Moving) -> float:
 
 
 def shortening_criterion(spec: Hoist, scene: Moving) -> Criterion:
-    """Part of the rope's length that the drum takes up or gives while the scene is looked at.
+    """Relative change of the rope length during the simulated scene.
 
         v T/l
 
-    **Range** every scene of motion.
-    **Error** an upper bound: the drive is not faster than its set speed but for moments.
+    **Range** every scene with motion.
+    **Error** an upper bound: the drive exceeds its set speed only briefly.
     **Source** `laws.rope_rod.hauling_gain`.
     """
     return Criterion(
-        "v T/l", _shortening(spec, scene), SHORTENING_THRESHOLD, "rope taken up in the scene, over all", "laws.rope_rod"
+        "v T/l",
+        _shortening(spec, scene),
+        SHORTENING_THRESHOLD,
+        "rope length change in the scene / rope length",
+        "laws.rope_rod",
     )
 
 
 def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
-    """What the change of the rope's length can do to its dynamic force.
+    """Change of the dynamic rope force due to the change of rope length.
 
         (ln A^2)' = (V/l) sin^2 f = (V/2 l) (1 - cos 2 f),   so that A <= A_0 (l_0/l_1)^(1/4) exp(V/(2 l_1 w))
 
-    A^2 = e^2 + (e'/w)^2 of the dynamic strain e of a rope hauled at the speed V, f its phase, which runs on with w:
-    what the cosine adds never comes to more than one of its halves. Paid out A falls as much. Times go with the
-    frequency, (l_0/l_1)^(1/2): those of lifting off with the length until then.
+    A^2 = e^2 + (e'/w)^2 of the dynamic strain e of a rope hauled at the speed V, f its phase, which advances with w:
+    the cosine term contributes at most one half-wave. During lowering, A decreases accordingly. Times change with the
+    frequency, by (l_0/l_1)^(1/2); lift-off times by the length until lift-off.
 
-    **Range** a drive of constant speed; twice the change of length is allowed for one that swings. A load that its
-    brake does not hold falls: V is what that adds to it and the change of length to that of the drop.
-    **Error** an upper bound for a constant speed and one frequency. In a structure the beat of two
-    frequencies shifts with the rope's: its forces are given four times as much, calibrated on a seeded sample (2.0).
+    **Range** a drive of constant speed; the bound includes twice the change of length for a drive that oscillates. For
+    a falling load that the brake does not hold, V and the change of length include the drop.
+    **Error** an upper bound for a constant speed and one frequency. With a flexible structure the beat of two
+    frequencies shifts with the rope frequency: the bound of its forces is four times as large, calibrated on a seeded
+    sample (2.0).
     **Source** derived from the equation of `laws.rope_rod.hauling_gain`.
     """
     part = 2 * _shortening(spec, scene)

@@ -9,14 +9,14 @@ from ptmcalc.machines.hoist.spec import Hoist
 
 
 def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """Loads of a scene with all that moves.
+    """Loads of a scene with all moving parts.
 
         J_1 w_1' = M_m - M_g/(u eta),   J_d w_d' = M_g - F R/eta_r,   M y'' = F - Q + N,   m_b z'' = F - K_b z - b_b z'
         M_g = C dz(phi_1/u - phi_d) + damping,   F = max(0, K (R phi_d - s_0 - y - z) + damping)
 
     **Range** a massless rope of constant length; the structure one mode.
     **Error** as `two_mass`.
-    **Source** as `two_mass`; the bridge with mass against an independent integration.
+    **Source** as `two_mass`; the bridge with mass verified by an independent integration.
     """
     from ptmcalc.machines.hoist.motion import scene as played
 

@@ -28,12 +28,12 @@ def _shown(**values: float) -> Result:
 
 
 def run_takeup(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) -> Result:
-    """Lift-off by a drive of finite mass that pulls with its mean starting torque all the time.
+    """Lift-off by a drive of finite mass with constant mean starting torque.
 
         v_1^2 = v_0^2 + Q (2 P - Q)/(K m_1),   F_max = F_eq + ((F_eq - Q)^2 + K mu v_1^2)^(1/2)
 
-    **Range** rigid structure and gear, no damping; a stall gives the force it comes to.
-    **Error** none bound: it leaves out that the drive does not outrun its set speed.
+    **Range** rigid structure and gear, no damping; for a stall the formula returns the stall force.
+    **Error** no bound: the formula does not limit the drive to its set speed.
     **Source** `laws.two_mass.takeup`.
     """
     one = reduced(spec, scene)
@@ -48,12 +48,12 @@ def run_takeup(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) ->
 
 
 def run_speed_source(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) -> Result:
-    """Lift-off by a drive that keeps its speed.
+    """Lift-off by a drive of constant speed.
 
         psi = 1 + v/(g delta)^(1/2)
 
     **Range** rigid or massless structure, no damping.
-    **Error** none bound.
+    **Error** no bound.
     **Source** `laws.lift_off.speed_source_factor`.
     """
     one = reduced(spec, scene)
@@ -63,12 +63,12 @@ def run_speed_source(spec: Hoist, scene: Lift, carried: frozenset[str], level: i
 
 
 def run_standard(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) -> Result:
-    """Lift-off by the class of the hoist.
+    """Lift-off factor by the hoisting class.
 
         phi_2 = phi_2,min + beta_2 v_h
 
     **Range** a file that gives the hoisting class.
-    **Error** none bound: it knows neither mass nor stiffness.
+    **Error** no bound: the factor depends on neither mass nor stiffness.
     **Source** EN 13001-2 and ISO 8686-1, the edition and combination of the file.
     """
     factor = model.class_factor(spec)
@@ -87,13 +87,13 @@ def has_class(spec: Hoist, scene: Lift) -> Criterion:
 
 
 def run_braking(spec: Hoist, scene: LowerBrake | Stop, carried: frozenset[str], level: int) -> Result:
-    """A stop by the brake as two masses.
+    """Stop by the brake, two-mass formulas.
 
         lowering: F = Q + M/(m_1 + M) (P_b - Q + (Q^2 + P_b^2 - 2 Q P_b cos(w t_d))^(1/2)), at most Q + v (K M)^(1/2)
         hoisting: F = Q - min(v (K M)^(1/2), 2 (P_b + Q) M/(m_1 + M))
 
-    **Range** the drive still moves at the peak; a rope that stays taut; no rise of the brake.
-    **Error** none bound.
+    **Range** the drive still moves at the peak; a taut rope; no rise time of the brake.
+    **Error** no bound.
     **Source** `laws.two_mass`, `laws.brake.brake_stop`.
     """
     one, brake = reduced(spec, scene), spec.brake
@@ -116,12 +116,12 @@ def run_braking(spec: Hoist, scene: LowerBrake | Stop, carried: frozenset[str], 
 
 
 def run_start(spec: Hoist, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """A hanging load set in motion by a step of force.
+    """Start of a suspended load by a force step.
 
-        F = Q + 2 (P - Q) M/(m_1 + M) upward;   downward the largest force is that of the end of the start
+        F = Q + 2 (P - Q) M/(m_1 + M) upward;   downward the maximum force is that at the end of the start
 
     **Range** a step of torque, rope taut, no damping.
-    **Error** none bound; a force that rises slowly has no factor 2.
+    **Error** no bound; a slowly rising force has no factor 2.
     **Source** `laws.two_mass.hanging_start_force`.
     """
     one = reduced(spec, scene)
@@ -130,12 +130,12 @@ def run_start(spec: Hoist, scene: Start, carried: frozenset[str], level: int) ->
 
 
 def run_release(spec: Hoist, scene: Release, carried: frozenset[str], level: int) -> Result:
-    """A part of the load let go, by the standard.
+    """Release of a part of the load, by the standard.
 
         phi_3 = 1 - (dm/m) (1 + beta_3)
 
     **Range** any part.
-    **Error** none bound for a slow release.
+    **Error** no bound for a slow release.
     **Source** EN 13001-2 and ISO 8686-1.
     """
     share = scene.share * spec.load / (spec.load + spec.hook_block) if scene.load == "full" else 0.0
@@ -143,12 +143,12 @@ def run_release(spec: Hoist, scene: Release, carried: frozenset[str], level: int
 
 
 def run_rod(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """Lowest natural frequency of drive and load on a rope that is a rod with its own mass.
+    """Lowest natural frequency of drive and load on a rope with distributed mass.
 
         w = B (K/m_r)^(1/2),   B = atan(m_r/(m_1 B)) + atan(m_r/(M B))
 
     **Range** rigid gear and structure.
-    **Error** exact for that model; a rope without mass is `two_mass`.
+    **Error** exact for that model; `two_mass` is the model with a massless rope.
     **Source** `laws.rope_rod.free_rod_frequency`.
     """
     one = reduced(spec, scene)
@@ -160,12 +160,12 @@ def run_rod(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int)
 
 
 def run_third_mass(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """Natural frequency with a third of the rope's mass added to the load, the drum held.
+    """Natural frequency with one third of the rope mass added to the load and a fixed drum.
 
         w = (K/(M + m_r/3))^(1/2)
 
     **Range** a drive much heavier than the load, a rigid structure (`is_held`).
-    **Error** none bound here: the drive swings, too.
+    **Error** no bound: the drive oscillates, too.
     **Source** `laws.rope_rod.third_mass_frequency`, Lord Rayleigh.
     """
     one = reduced(spec, scene)
@@ -173,12 +173,12 @@ def run_third_mass(spec: Hoist, scene: HoistScene, carried: frozenset[str], leve
 
 
 def run_by_deflection(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) -> Result:
-    """Lift-off by the standard with the hoisting class that the stretch of rope and structure gives.
+    """Lift-off factor by the standard, with the hoisting class from the deflection of rope and structure.
 
         delta = Q/K + Q/K_b,   HC1 from 0.8 m, HC2 from 0.3 m, HC3 from 0.15 m, HC4 below
 
     **Range** the rated load.
-    **Error** none bound, as `run_standard`.
+    **Error** no bound, as `run_standard`.
     **Source** EN 13001-2; `laws.lift_off_standard.stiffness_class`.
     """
     one, under = reduced(spec, scene), spec.structure
@@ -206,7 +206,7 @@ def is_held(spec: Hoist, scene: HoistScene) -> Criterion:
     one = reduced(spec, scene)
     share = one.load_mass / one.drive_mass if one.drive_mass else 1.0
     fits = not is_rigid(spec, scene).exceeded
-    return Criterion("M/m_1", share if fits else 1.0, 0.1, "load over drive, or gear and structure give", "")
+    return Criterion("M/m_1", share if fits else 1.0, 0.1, "load relative to drive, or flexible gear and structure", "")
 
 
 def is_rigid(spec: Hoist, scene: HoistScene) -> Criterion:
@@ -218,7 +218,7 @@ def is_rigid(spec: Hoist, scene: HoistScene) -> Criterion:
     """
     gear = spec.gearbox
     rigid = spec.structure is None and (gear is None or gear.stiffness is None)
-    return Criterion("-", 0.0 if rigid else 1.0, 1.0, "gear or structure give", "")
+    return Criterion("-", 0.0 if rigid else 1.0, 1.0, "flexible gear or structure", "")
 
 
 def _cost(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> float:

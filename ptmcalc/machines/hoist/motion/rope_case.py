@@ -162,7 +162,7 @@ def has_rigid_gear(spec: Hoist, scene: Moving) -> Criterion:
     gear = spec.gearbox
     fits = gear is None or gear.stiffness is None
     fits = fits and model.reverse_efficiency(spec) > 0 and model.motor_side_inertia(spec) + (spec.drum.inertia or 0) > 0
-    return Criterion("-", 0.0 if fits else 1.0, 1.0, "the gear gives, locks itself, or turns nothing", "")
+    return Criterion("-", 0.0 if fits else 1.0, 1.0, "the gear is flexible, self-locking, or without a drum", "")
 
 
 def has_rigid_gear_and_no_damping(spec: Hoist, scene: Moving) -> Criterion:
@@ -173,7 +173,7 @@ def has_rigid_gear_and_no_damping(spec: Hoist, scene: Moving) -> Criterion:
     **Source** the file; waves of a damped rope keep no shape.
     """
     if spec.rope.damping > 0:
-        return Criterion("-", 1.0, 1.0, "the rope has damping, in which waves keep no shape", "")
+        return Criterion("-", 1.0, 1.0, "the rope has damping, which distorts waves", "")
     return has_rigid_gear(spec, scene)
 
 

@@ -10,17 +10,17 @@ from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
 
 
 def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """Loads of a scene with the strained rope taken in by the drum, or given.
+    """Loads of a scene in which the drum winds or pays out the strained rope.
 
-        F = K l e + b (stretch rate),   e = (D - s)/s,   s' = -w/(1 + e) hauling,   s' = -w/(1 + e_0) paying out
+        F = K l e + b (elongation rate),   e = (D - s)/s,   s' = -w/(1 + e) hauling,   s' = -w/(1 + e_0) paying out
 
-    s is the unstrained rope between drum and load, D their distance, w the speed of the drum at the hook; what is paid
-    out was wound with the strain e_0 of the load at rest.
+    s is the unstrained rope between drum and load, D their distance, w the speed of the drum at the hook; the rope paid
+    out was wound with the static strain e_0 of the load.
 
-    **Range** a rigid gear that does not lock itself; a rope without mass; no slip on the drum, the layer and the
-    number of falls kept.
-    **Error** collocation by its tail of 1e-12; the bar comes from a run that divides time otherwise. The numbers are
-    trusted only if the energy ledger, with the strain wound onto the drum, closes to 1e-9.
+    **Range** a rigid gear without self-locking; a massless rope; no slip on the drum, constant layer and number of
+    falls.
+    **Error** collocation with a remainder of 1e-12; the error bar is from a run with other time steps. Results are
+    accepted only if the energy balance, including the strain wound onto the drum, closes to 1e-9.
     **Source** derived in `numerics.rope.march`; its adiabatic limit is `laws.rope_rod.hauling_gain`.
     """
     from ptmcalc.machines.hoist.motion import rope_case, rope_scene  # for the scenes that call for them

@@ -232,7 +232,7 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
         findings.append(
             Finding(
                 "NUM104",
-                f"scene `{scene.label}`: the rope goes slack at {slack:.4g} s; a slack rope with mass is not followed",
+                f"scene `{scene.label}`: the rope goes slack at {slack:.4g} s; a slack rope with mass is not simulated",
             )
         )
     if residual > _CLOSES:

@@ -13,15 +13,15 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     """Loads of a scene with the rope as a rod between drum and load.
 
         F = f(t - x/c) + g(t + x/c),   v = (f - g)/Z,   Z = (K m_r)^(1/2),   transit (m_r/K)^(1/2)
-        F_top = Z (v_drum - z') + 2 g,   F_load = 2 f - Z v_load;   forces are the largest and smallest of the rope
+        F_top = Z (v_drum - z') + 2 g,   F_load = 2 f - Z v_load;   forces are the maximum and minimum along the rope
 
-    As a lift begins the rope is at rest and the drum runs, so that its end starts the first wave. The rope's inertia
-    is in it, not its weight, which the loads of even motion have.
+    At the start of a lift the rope is at rest and the drum runs, so that the rope end starts the first wave. The solver
+    includes the inertia of the rope, not its weight, which the loads of steady motion include.
 
-    **Range** a rigid gear that does not lock itself; a rope of constant length without damping that stays taut: where
-    it goes slack a finding says so and the numbers are not used.
-    **Error** waves and corners exact, in between collocation by its tail of 1e-12; the bar comes from a run that
-    divides time otherwise. The numbers are trusted only if the energy ledger, waves under way in it, closes to 1e-9.
+    **Range** a rigid gear without self-locking; a taut rope of constant length without damping: if it goes slack, a
+    finding is reported and the results are not used.
+    **Error** waves and corners exact, collocation with a remainder of 1e-12 between them; the error bar is from a run
+    with other time steps. Results are accepted only if the energy balance, including waves in the rope, closes to 1e-9.
     **Source** J. d'Alembert's solution; derived in `numerics.rope.march`.
     """
     from ptmcalc.machines.hoist.motion import rope_case, rope_scene  # for the scenes that call for them
@@ -50,7 +50,7 @@ def valid(spec: Hoist, scene: Moving) -> Criterion | None:
 
 ROPE_WAVES: Solver[Hoist, Moving] = Solver(
     name="rope_waves",
-    title="drive and load on a rope with waves, event-driven",
+    title="drive and load on a rope with distributed mass, event-driven",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Lift, Start, Stop, LowerBrake}),
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash", "rope_mass"},

@@ -22,8 +22,8 @@ def remarks(scene: Moving, course: Course) -> list[Finding]:
     said += [
         Finding(
             "NUM104",
-            f"scene `{label}`: {event.element} jams at {event.time:.4g} s: a self-locking gear cannot be braked from"
-            " its motor's side against so much inertia; it is taken to stop at once",
+            f"scene `{label}`: {event.element} locks at {event.time:.4g} s: a self-locking gear cannot be braked from"
+            " its motor's side against this load inertia; an immediate stop is assumed",
             ("gearbox",),
         )
         for event in course.record.events
@@ -42,7 +42,7 @@ def failures(scene: Moving, course: Course) -> list[Failure]:
         lifted = math.isfinite(lift_off_time(course))
         found += tripped_early(scene) if trips and not lifted else stalls(case, lifted, course.top("link", rope))
     if isinstance(scene, Start) and not case.lowers and _sinks(course):
-        reason = "the motor stalls with the load hanging: the load lowers and turns the drive"
+        reason = "the motor stalls under the suspended load: the load descends and drives the motor"
         found.append(Failure("HST114", reason, _TORQUE, "a stronger motor, a larger gear ratio, or less load"))
     if case.stops and math.isinf(stopped(course)):
         found += not_held(case)
@@ -55,7 +55,14 @@ def gone_slack(time: float) -> list[Failure]:
     """A rope that goes slack at a time, after a part of the load has come off."""
     if not math.isfinite(time):
         return []
-    return [Failure("HST126", f"the rope goes slack at {time:.3g} s", (), "let less of the load off, or slowly")]
+    return [
+        Failure(
+            "HST126",
+            f"the rope goes slack at {time:.3g} s",
+            (),
+            "release a smaller part of the load, or release it slowly",
+        )
+    ]
 
 
 _TORQUE = ("motor",)
@@ -64,9 +71,9 @@ _TORQUE = ("motor",)
 def not_held(case: Case) -> list[Failure]:
     """A load that its brake does not hold, or not for long."""
     way = units.show(case.drop, units.SPAN)
-    reason = f"the brake does not hold the load: it goes down to the ground, or to the end of the rope, by up to {way}"
+    reason = f"the brake does not hold the load: it descends to the ground, or to the end of the rope, by up to {way}"
     if case.holds:
-        reason = "the load keeps jumping on its rope and slips through the brake each time the rope becomes taut"
+        reason = "the load rebounds on its rope, and the brake slips each time the rope becomes taut"
     return [Failure(code, reason, ("brake", "torque"), "a stronger brake") for code in ("HST118", "HST122")]
 
 
@@ -90,8 +97,8 @@ def not_seen(scene: Lift, case: Case) -> list[Finding]:
     """A lift that takes longer than is computed."""
     if not outlasts(case):
         return []
-    reason = f"the load still stands on the ground as the longest window of {case.window:.3g} s ends"
-    return [Finding("NUM103", f"scene `{scene.label}`: {reason}", ("speed",), "a larger speed")]
+    reason = f"the load is still on the ground at the end of the longest window, {case.window:.3g} s"
+    return [Finding("NUM103", f"scene `{scene.label}`: {reason}", ("speed",), "increase the speed")]
 
 
 def stalls(case: Case, lifted: bool, largest: tuple[float, float | None]) -> list[Failure]:

@@ -13,12 +13,12 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
 
         m_1 x'' = F_m - F,   M y'' = F - Q + N,   F = max(0, K (x - s_0 - y) + b (x' - y'))
 
-    The drive keeps its set speed as long as that takes no more than its mean starting torque, or follows its curve;
-    losses of gear and tackle go by the direction of power. Brake with delay and rise, sticking at rest.
+    The drive keeps its set speed up to its mean starting torque, or follows its curve; losses of gear and reeving
+    depend on the direction of power. The brake has a delay and a rise time and holds at standstill.
 
     **Range** a rigid gear and structure; a massless rope of constant length.
-    **Error** between events exact; bars from runs that divide time otherwise (`motion.loads`), with a smooth curve by
-    its tolerance. The numbers are trusted only if the energy ledger closes to 1e-9.
+    **Error** exact between events; error bars from runs with other time steps (`motion.loads`), with a smooth curve by
+    its tolerance. Results are accepted only if the energy balance closes to 1e-9.
     **Source** derived in `numerics.piecewise` and `numerics.train`; worked cases of lift-off and braking.
     """
     from ptmcalc.machines.hoist.motion import scene as played

@@ -48,7 +48,7 @@ CAPACITY: OneCheck = only(loaded)(
 
 
 def _layers_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Layers of the file, or those of the drum, one in the groups M7 and M8.
+    """Permissible layers of the file, otherwise those of the drum; one in the groups M7 and M8.
 
     **Range** any drum.
     **Error** none: a chosen limit.
@@ -84,11 +84,11 @@ LAYERS: OneCheck = only(loaded)(
 
 
 def _flange_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Least height of the flanges over the last layer, 1.5 rope diameters by default.
+    """Minimum height of the flanges above the top layer, 1.5 rope diameters by default.
 
     **Range** drums with flanges.
     **Error** none: a chosen limit.
-    **Source** makers' manuals; EN 14492-2:2006 asks as much.
+    **Source** manufacturers' manuals; EN 14492-2:2006 requires the same.
     """
     return Estimate.exact(spec.checks.flange_margin)
 
@@ -97,7 +97,7 @@ FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.fl
     Check(
         code="HST108",
         title="flange height above the top layer",
-        question="Do the flanges stand high enough above the top rope layer?",
+        question="Is the flange height above the top rope layer sufficient?",
         failure="drum flanges are too low",
         scenes=RUNNING,
         loads=("flange_margin",),
@@ -109,16 +109,16 @@ FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.fl
         what="The height of the flanges above the top layer is at least the limit, 1.5 rope diameters by default.",
         why="A flange cuts a rope that passes over it.",
         formula="(h - (d + (n - 1) step))/d >= 1.5",
-        source="makers' manuals; EN 14492-2:2006",
+        source="manufacturers' manuals; EN 14492-2:2006",
     )
 )
 
 
 def _slender_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Largest length of the wound parts over the diameter, 5 by default.
+    """Maximum ratio of wound length to drum diameter, 5 by default.
 
     **Range** drums on two bearings.
-    **Error** none: an engineering rule; above 3 the shell is checked for bending too.
+    **Error** none: an engineering rule; above 3 the shell is also verified for bending.
     **Source** handbooks of lifting machines.
     """
     return Estimate.exact(spec.checks.drum_slenderness)
@@ -148,11 +148,11 @@ SLENDER: OneCheck = only(loaded)(
 
 
 def _wraps_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Fewest turns that stay on the drum, 2 by default.
+    """Minimum number of dead wraps, 2 by default.
 
     **Range** ropes clamped to the drum.
     **Error** none: a chosen limit.
-    **Source** makers' manuals: 2, some rules 3; Euler's rope friction takes most of the pull from the clamps.
+    **Source** manufacturers' manuals: 2, some rules 3; rope friction (Euler-Eytelwein) carries most of the rope force.
     """
     return Estimate.exact(spec.checks.dead_wraps)
 
@@ -174,17 +174,17 @@ DEAD_WRAPS: OneCheck = only(loaded)(
         " default.",
         why="The friction of the dead wraps holds the rope. The clamps alone do not hold it.",
         formula="z >= 2",
-        source="makers' manuals; ISO 4308-1",
+        source="manufacturers' manuals; ISO 4308-1",
     )
 )
 
 
 def _fleet_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Largest fleet angle: 4 deg, 2 deg for rotation-resistant ropes, or what the file says.
+    """Largest fleet angle: 4 deg, 2 deg for rotation-resistant ropes, or the value of the file.
 
     **Range** drums and sheaves with grooves of the usual depth.
     **Error** none: a chosen limit.
-    **Source** makers' manuals; ISO 16625:2013 as they quote it.
+    **Source** manufacturers' manuals, which quote ISO 16625:2013.
     """
     asked = spec.checks.fleet_angle
     resistant = spec.rope.rotation_resistant == "yes"
@@ -218,13 +218,13 @@ FLEET: OneCheck = only(_fleet_wanted)(
         " block at its highest position.",
         why="A rope that leaves the drum at an angle rubs on the groove, untwists and finally jumps the groove.",
         formula="tan a = (b/2 + e)/l <= tan 4 deg",
-        source="geometry; makers' manuals after ISO 16625:2013",
+        source="geometry; manufacturers' manuals after ISO 16625:2013",
     )
 )
 
 
 def _hoop_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Largest hoop stress of the file.
+    """Permissible hoop stress of the file.
 
     **Range** the shell of the drum; half of the yield strength is usual.
     **Error** none: a given value.

@@ -43,9 +43,9 @@ def _group_needs(key: str) -> Callable[[Hoist, Run], tuple[KeyPath, ...]]:
 
 
 def _safety_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Z_p of the group of the mechanism, or of the file.
+    """Z_p of the mechanism group, or of the file.
 
-    **Range** groups M1 to M8, M6 at most for several layers; a quarter more for dangerous loads, 9 at most.
+    **Range** groups M1 to M8, at most M6 for several layers; 25 % more for dangerous loads, at most 9.
     **Error** none: a table.
     **Source** ISO 4308-1:2003, GOST 33710-2015; quoted from secondary sources.
     """
@@ -84,7 +84,7 @@ ROPE: OneCheck = only(loaded)(
 
 
 def _drum_limit(spec: Hoist, scene: Run) -> Estimate:
-    """h_1 of the group of the mechanism, or of the file.
+    """h_1 of the mechanism group, or of the file.
 
     **Range** groups M1 to M8.
     **Error** none: a table, to be confirmed against the text.
@@ -115,7 +115,7 @@ DRUM_BEND: OneCheck = only(loaded)(
 
 
 def _sheave_limit(spec: Hoist, scene: Run) -> Estimate:
-    """h_2 of the group of the mechanism, or of the file.
+    """h_2 of the mechanism group, or of the file.
 
     **Range** groups M1 to M8.
     **Error** none: a table, to be confirmed against the text.
@@ -151,7 +151,7 @@ SHEAVE_BEND: OneCheck = only(_has_sheaves)(
 
 
 def _equaliser_limit(spec: Hoist, scene: Run) -> Estimate:
-    """h_3 of the group of the mechanism, or of the file.
+    """h_3 of the mechanism group, or of the file.
 
     **Range** groups M1 to M8.
     **Error** none: a table, to be confirmed against the text.
@@ -187,11 +187,11 @@ EQUALISER_BEND: OneCheck = only(_has_equaliser)(
 
 
 def _slack_limit(spec: Hoist, scene: Run) -> Estimate:
-    """The rope stays taut.
+    """0: the rope stays taut.
 
-    **Range** any tackle.
-    **Error** none: a rope does not push.
-    **Source** balance of every sheave.
+    **Range** any reeving.
+    **Error** none: a rope carries no compression.
+    **Source** equilibrium of every sheave.
     """
     return Estimate.exact(0.0)
 
@@ -223,7 +223,7 @@ SLACK: OneCheck = only(lambda spec, scene: spec.hook_block > 0)(
 
 
 def _use_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Group of the mechanism that the file claims.
+    """Mechanism group declared in the file.
 
     **Range** M1 to M8.
     **Error** none: a class.

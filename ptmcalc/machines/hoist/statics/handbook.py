@@ -11,13 +11,13 @@ from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
 
 
 def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """Loads of even motion as handbooks write them.
+    """Loads of steady motion by handbook formulas.
 
         S = (Q + G) g/(m eta_r),   M_d = n S R_last,   M_up = M_d/(u eta),   M_down = M_d eta_r^2 eta/u
 
-    **Range** falls so short that the rope weighs nothing beside the load; gears of high efficiency.
-    **Error** no bound: without the rope's weight the pull comes out too small by it; 2 - 1/eta is below eta by
-    (1 - eta)^2/eta, so the load on the brake comes out too large.
+    **Range** falls with a rope weight negligible relative to the load; gears of high efficiency.
+    **Error** no bound: the rope force is too small by the neglected rope weight; 2 - 1/eta is below eta by (1 -
+    eta)^2/eta, so that the computed load on the brake is too large.
     **Source** lecture notes Kramatorsk 2007 and handbooks of lifting machines.
     """
     falls = model.falls_of_a_rope(spec)

@@ -25,15 +25,15 @@ above the resolution 2e-16 of the floating point. At 1 the layer below is evalua
 
 
 def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """Loads of a hook that moves evenly, at the worst height of the lift where the scene names none.
+    """Loads of steady hook motion, at the worst height of the lift if the scene gives none.
 
-        S = (Q + G) g/(m eta_r) with the rope's own weight,   M = S R_k of the layer k,   M_m = M/(u eta), M eta_r/u
+        S = (Q + G) g/(m eta_r) with the weight of the rope,   M = S R_k of the layer k,   M_m = M/(u eta), M eta_r/u
 
     **Range** vertical falls, a rope that runs freely over its sheaves; steady motion.
-    **Error** exact for that model: what is not known of it stands among the assumptions. The heating torque takes the
-    largest static torque of the lift for all of it: on the safe side by the growth of the radius over the layers.
-    **Source** balance of every sheave (`laws.reeving`), geometry of the drum (`laws.rope_drum`), power balance of the
-    gearbox (`laws.gearing`), IEC 60034-1 and ISO 4301-1 (`laws.duty`, `laws.classification`).
+    **Error** exact for that model; the report lists the assumptions. The rms torque uses the maximum static torque of
+    the lift throughout: on the safe side by the increase of the radius over the layers.
+    **Source** equilibrium of every sheave (`laws.reeving`), geometry of the drum (`laws.rope_drum`), power balance of
+    the gearbox (`laws.gearing`), IEC 60034-1 and ISO 4301-1 (`laws.duty`, `laws.classification`).
     """
     loads = _of_the_rope(spec, scene) | _of_the_drum(spec, scene)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
@@ -151,7 +151,7 @@ def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     time = torques.start_time(spec, spec.motor, mass, height, up=True) if reserve > 1 else math.inf
     if isinstance(scene, Start):
         time = torques.profiled(spec, spec.motor, scene, mass, time)
-    note = "stall: the motor does not lift the hanging load" if math.isinf(time) else ""
+    note = "stall: the motor does not lift the suspended load" if math.isinf(time) else ""
     found = {
         "starting_reserve": Found(Estimate.exact(reserve), note=note),
         "start_time": Found(Estimate.exact(time)),
@@ -171,7 +171,7 @@ def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     note = ""
     if held.drop > 0:
         way, hits = units.show(held.drop, units.SPAN), units.show(held.speed, units.SPEED)
-        note = f"the load drops {way} to the ground and meets it at {hits}"
+        note = f"the load drops {way} to the ground and hits it at {hits}"
     return {
         "brake_torque_static": Found(Estimate.exact(held.torque)),
         "brake_reserve_static": Found(Estimate.exact(held.reserve), note=note),
@@ -228,11 +228,11 @@ HOIST_STATICS: Solver[Hoist, HoistScene] = Solver(
 
 
 def hold(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """What the closed brake holds in a scene that ends with it.
+    """Holding reserve of the closed brake in a scene that ends with it.
 
-        reserve = M_B/(S R n eta_r/u);   a brake below 1 lets the load sink with a = (M_d eta_r/u - M_B)/J
+        reserve = M_B/(S R n eta_r/u);   with a reserve below 1 the load drops with a = (M_d eta_r/u - M_B)/J
 
-    **Range** as `hoist_statics`; a brake whose torque does not fade.
+    **Range** as `hoist_statics`; a constant brake torque without fading.
     **Error** exact for that model.
     **Source** power balance of the gearbox (`laws.hoisting`).
     """
@@ -257,7 +257,7 @@ def _where_the_brake_lets_go(spec: Hoist, scene: HoistScene) -> Iterator[Finding
                 f"scene `{scene.label}` assumes the lowest hook position, where the brake holds the load; above hook"
                 f" height {said}, with the rope on layer {layer}, the brake does not hold it"
             )
-            yield Finding("NUM104", message, ("scenes",), f"write a `hook_height` above {said} to see such a stop")
+            yield Finding("NUM104", message, ("scenes",), f"write a `hook_height` above {said} to assess such a stop")
         return
 
 
@@ -275,7 +275,7 @@ HOLDING: Solver[Hoist, HoistScene] = Solver(
 
 
 def start(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """What the motor has over the hanging load in a scene that begins with it.
+    """Torque reserve of the motor over the suspended load in a scene that starts with it.
 
         reserve = M_mean/(S R n/(u eta));   t = w (J_1 + J_2/(u^2 eta))/(M_mean - M_L/(u eta))
         reserve of braking = M_b/(S R n eta_r/u)

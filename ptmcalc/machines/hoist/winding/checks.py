@@ -13,21 +13,21 @@ def _speed_key(spec: Hoist, scene: WindUp) -> KeyPath:
 
 
 def _most_ratio(spec: Hoist, scene: WindUp) -> Estimate:
-    """Largest dynamic over mean stress of the rope, `checks: {winding_stress_ratio: ...}`.
+    """Maximum ratio of dynamic to mean rope stress, `checks: {winding_stress_ratio: ...}`.
 
     **Range** any rope.
     **Error** none: a given value.
-    **Source** an engineering choice of 10 %: what the safety factors of ropes, chosen by static pulls, easily bear.
+    **Source** an engineering choice of 10 %: covered by rope safety factors for static force.
     """
     return Estimate.exact(spec.checks.winding_stress_ratio)
 
 
 def _least_detuning(spec: Hoist, scene: WindUp) -> Estimate:
-    """Least distance of the crossovers from resonance, `checks: {crossover_detuning: ...}`.
+    """Minimum separation of the crossovers from resonance, `checks: {crossover_detuning: ...}`.
 
     **Range** light damping.
     **Error** none: a given value.
-    **Source** an engineering choice of 20 %, beside which an undamped swing is magnified three times.
+    **Source** an engineering choice of 20 %, at which an undamped oscillation is magnified three times.
     """
     return Estimate.exact(spec.checks.crossover_detuning)
 
@@ -48,8 +48,8 @@ WINDING_STRESS: Check[Hoist, WindUp] = Check(
     " change and the crossovers on the new layer.",
     why="The rope speed changes abruptly with the radius of the drum, and the load oscillates on its rope. The safety"
     " factor of the rope covers static forces only.",
-    formula="s_dyn/s_mean <= limit;   of a sudden climb w dR k n/(m g)",
-    source="Fidrovska and Varchenko, put right; the limit an engineering choice",
+    formula="s_dyn/s_mean <= limit;   for a sudden layer change w dR k n/(m g)",
+    source="Fidrovska and Varchenko, corrected; the limit an engineering choice",
 )
 CROSSOVER_RESONANCE: Check[Hoist, WindUp] = Check(
     code="HST141",

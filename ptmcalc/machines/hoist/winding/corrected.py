@@ -25,14 +25,15 @@ OF_PAPER = {
 
 
 def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Result:
-    """Stretch and stress of the rope for a climb in the paper's shape, whose impulse is the jump of the rope's speed.
+    """Elongation and stress of the rope for a layer change with the shape of the paper and the impulse of the rope
+    speed jump.
 
         k = (K/M)^(1/2),   q'' + 2 zeta k q' + k^2 q = B w^2 dR (exp(-p f) - exp(-r f)) for a turn, f = w t
         s_dyn/s_mean = C B w^2 dR n/(m g),   C = k^2 q_max/(B w^2 dR)
 
-    **Range** one climb, a load that hung still, a rope whose length does not change.
-    **Error** exact for that shape, which is assumed: the bound of the effect `layer_map` holds any other and the
-    crossovers. The frequency is that of the length under load, half the static strain too low.
+    **Range** one layer change, a load initially at rest, a rope of constant length.
+    **Error** exact for the assumed shape: the bound of the effect `layer_map` covers any other shape and the
+    crossovers. The frequency is that of the loaded length, too low by half the static strain.
     **Source** `laws.winding`, `numerics.decay_pulse`.
     """
     case, modulus = climb(spec, scene), filled(spec.rope.modulus)

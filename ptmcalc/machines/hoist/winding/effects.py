@@ -19,25 +19,26 @@ CHANGED = ("winding_displacement_max", "winding_stress_max", "winding_stress_rat
 
 
 def layer_map_criterion(spec: Hoist, scene: WindUp) -> Criterion:
-    """Dynamic over mean stress if the rope climbed at once.
+    """Ratio of dynamic to mean stress for a sudden layer change.
 
         w dR k n/(m g)
 
-    **Range** any drum in layers.
-    **Error** an upper bound for one climb; crossovers on the layer can add up to more.
+    **Range** any multilayer drum.
+    **Error** an upper bound for one layer change; crossovers on the layer may add up to more.
     **Source** `laws.winding.sudden_ratio`; the threshold of 2 % is an engineering choice.
     """
     value = sudden_ratio(spec, scene)
-    meaning = "dynamic over mean stress of a sudden climb"
+    meaning = "dynamic / mean stress of a sudden layer change"
     return Criterion("ωΔr k/(m g)", value, LAYER_MAP_THRESHOLD, meaning, "laws.winding")
 
 
 def layer_map_bound(spec: Hoist, scene: WindUp, loads: Mapping[str, Estimate]) -> Mapping[str, Interval]:
-    """From nothing to what the climb and all crossovers of the layer give if every one meets the swing at its worst.
+    """From zero to the sum of the layer change and all crossovers of the layer, each at the worst phase of the
+    oscillation.
 
         |C_j| <= |C_(j-1)| exp(-zeta theta) + S^(1/2) |e_p - e_p'| ...   (`numerics.hauling.largest_possible`)
 
-    **Range** a load that hung still before the climb; unbounded where the drum takes in all the rope.
+    **Range** a load at rest before the layer change; unbounded if the drum winds the whole rope.
     **Error** a bound; without damping it grows with the number of crossovers.
     **Source** derived in `numerics.hauling`.
     """

@@ -21,14 +21,14 @@ from ptmcalc.numerics.hauling import haul
 
 
 def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Result:
-    """Stretch and stress of the rope from the climb to the end of the layer, or until the hook is up.
+    """Elongation and stress of the rope from the layer change to the end of the layer, or to the highest hook position.
 
         (s e')' + 2 zeta (kappa s)^(1/2) e' + kappa e = V',   V = w R(f),   s' = -V/(1 + e_0)
 
-    R goes straight between the corners of `laws.winding.winding_radius`.
+    R is linear between the corners of `laws.winding.winding_radius`.
 
-    **Range** a load that hung still before the climb, an even drum, a rope without mass that stays taut.
-    **Error** told: `numerics.hauling`.
+    **Range** a load at rest before the layer change, constant drum speed, a taut massless rope.
+    **Error** stated in `numerics.hauling`.
     **Source** `numerics.hauling`.
 
     Raises:
@@ -39,7 +39,7 @@ def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Resu
     motion = haul(radius_map(spec, scene), case.drum_speed, hanging)
     most, least = motion.extremes()
     if least.value + least.error <= -hanging.static_strain:
-        reason = f"the rope goes slack {least.time:.3g} s after the climb begins"
+        reason = f"the rope goes slack {least.time:.3g} s after the layer change begins"
         hint = "a lower drum speed, or one layer of rope"
         return Result({}, work=len(motion.offsets), failures=(Failure("HST140", reason, ("speed",), hint),))
     if least.value - least.error <= -hanging.static_strain:

@@ -17,16 +17,16 @@ WIRE = 2.1e11
 
 
 def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Result:
-    """Frequency, stretch and stress of the rope by the paper.
+    """Frequency, elongation and stress of the rope by the paper.
 
         k = (E F g/(P l))^(1/2),   q'' + k^2 q = A (exp(-3 t) - exp(-96 t)) for a turn of the drum,   s = E q/l
 
     with A = w^2 d and the mean stress P/F.
 
-    **Range** a rope without a tackle, a drum at 12 rpm.
+    **Range** a single-fall rope, a drum at 12 rpm.
     **Error** no bound: on m falls the frequency is m times too small, the modulus is that of wire, and the impulse of
-    the forcing is not the jump of the rope's speed. It never decides.
-    **Source** N. Fidrovska, O. Varchenko (`laws.winding`); misprints put right in `numerics.decay_pulse`.
+    the forcing is not the rope speed jump. The formula never decides a verdict.
+    **Source** N. Fidrovska, O. Varchenko (`laws.winding`); misprints corrected in `numerics.decay_pulse`.
     """
     pulse, modulus = _pulse(spec, scene), _modulus(spec)
     length, mean = climb(spec, scene).length, _mean(spec, scene)

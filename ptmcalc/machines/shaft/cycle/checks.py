@@ -15,7 +15,7 @@ _BELOW_ONE = math.nextafter(1.0, 0.0)
 
 
 def _motion_limit(spec: Shaft, scene: Steady) -> Estimate:
-    """The loss factor must stay below 1.
+    """1: the loss factor stays below it.
 
     **Range** any machine.
     **Error** none.
@@ -25,12 +25,12 @@ def _motion_limit(spec: Shaft, scene: Steady) -> Estimate:
 
 
 def _motion_value(spec: Shaft, scene: Steady, loads: Loads) -> Estimate:
-    """The loss factor; a cycle that surely keeps moving has one below 1.
+    """Loss factor of the cycle; a cycle with guaranteed motion has a loss factor below 1.
 
-    A machine that runs idle has a loss factor of 1, too, and one that its load drives has none: both move.
+    An idling machine also has a loss factor of 1, and a machine driven by its load has none: both move.
 
     **Range** any machine.
-    **Error** that of the load; none where the smallest speed of the cycle surely is above 0, or the motor stalls.
+    **Error** that of the load; none if the minimum speed of the cycle is above 0 for certain, or the motor stalls.
     **Source** the Poincare map of the cycle.
     """
     factor = loads["loss_factor"]
@@ -61,7 +61,7 @@ MOTION: Check[Shaft, Steady] = Check(
 
 
 def _even_limit(spec: Shaft, scene: Steady) -> Estimate:
-    """Largest irregularity of the file.
+    """Permissible coefficient of speed fluctuation of the file.
 
     **Range** 1/5 to 1/30 for presses and pumps, 1/40 to 1/100 for machine tools and looms, 1/100 to 1/300 for
     generators.
@@ -87,7 +87,7 @@ EVEN: Check[Shaft, Steady] = Check(
     what="The coefficient of speed fluctuation of the main shaft over the steady cycle is at most the limit.",
     why="Speed fluctuation loads gear and motor. It impairs the work result and causes audible noise.",
     formula="(w_max - w_min)/w_mean <= delta",
-    source="definition; limit by the maker of the machine",
+    source="definition; limit by the machine manufacturer",
 )
 
 
@@ -100,7 +100,7 @@ def _inertia_key(spec: Shaft) -> KeyPath:
 def _heat_limit(spec: Shaft, scene: Steady) -> Estimate:
     """Rated torque of the motor.
 
-    **Range** continuous duty S6 of IEC 60034-1: the same cycle over and over, never at rest.
+    **Range** continuous-operation periodic duty S6 of IEC 60034-1: identical cycles without standstill.
     **Error** none: the rating.
     **Source** IEC 60034-1; `laws.duty.rms_torque`.
     """
@@ -132,9 +132,9 @@ HEAT: Check[Shaft, Steady] = Check(
 
 
 def _overload_limit(spec: Shaft, scene: Steady) -> Estimate:
-    """The most the motor may give: the limit of the file, that of the converter, or a share of the breakdown torque.
+    """Permissible motor torque: the limit of the file, that of the converter, or a share of the breakdown torque.
 
-        0.81 M_k:  the torque goes with the square of the voltage, and the voltage may be 10 % low
+        0.81 M_k:  the torque is proportional to the square of the voltage, and the voltage may be 10 % low
 
     **Range** induction motors by their breakdown torque; others by `largest_torque`.
     **Error** none: a chosen limit.
@@ -155,7 +155,7 @@ OVERLOAD: Check[Shaft, Steady] = Check(
     code="SHF107",
     title="peak motor torque",
     question="Is the peak motor torque far enough below breakdown torque or overload limit?",
-    failure="motor torque comes too close to breakdown",
+    failure="motor torque is too close to the breakdown torque",
     scenes=frozenset({Steady}),
     loads=("torque_motor_max",),
     sense=Sense.AT_MOST,

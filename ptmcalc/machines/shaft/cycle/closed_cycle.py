@@ -32,18 +32,18 @@ _LARGEST_FLYWHEEL = 1e6  # times the present inertia
 
 
 def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Result:
-    """Loads of the steady cycle from the motion itself, the motor's curve followed at every moment.
+    """Loads of the steady cycle from the equation of motion, with the motor curve at every moment.
 
         de/dphi = eps(phi, e),  e = w^2/2,   w(0) = w(Theta)
 
-    All stretches of a cycle by collocation with 12 nodes in the angle, closed by Newton's method: the fixed point of
-    the Poincare map is a root, and nothing is run until it settles. Stretches end at every break of the angle and are
-    divided until the polynomials have no tail left. The flywheel is the inertia at which the irregularity of that
-    cycle is the one wanted. A motor that stalls is told by the map itself: it lies below its argument at every speed.
+    The segments of a cycle are solved by collocation with 12 nodes in the angle. Newton's method finds the periodic
+    cycle as the fixed point of the Poincare map, without a transient run. Segments end at every discontinuity of the
+    angle and are divided until the polynomials have a negligible remainder. The flywheel inertia gives the required
+    speed fluctuation of that cycle. A stalling motor is detected by the map: it is below its argument at every speed.
 
     **Range** rigid links, one degree of freedom, rotation in one sense.
-    **Error** twice the difference to the same stretches with 8 nodes, whose own error is larger by far, and 1e-10 for
-    rounding. Where the balance of works, by a quadrature of its own, leaves more than 1e-8, nothing is known.
+    **Error** twice the difference to the same segments with 8 nodes, whose own error is far larger, and 1e-10 for
+    rounding. If the work balance, by a separate quadrature, has an error above 1e-8, there is no result.
     **Source** Radau IIA: Hairer and Wanner, Solving ordinary differential equations II; derived in `numerics.cycle`.
     """
     if machine_in(spec, scene).races:
@@ -131,7 +131,7 @@ def _flywheel(cycle: Cycle, wanted: float) -> tuple[Estimate, int]:
         found = light_cycle(cycle.machine.with_flywheel(added), orbit)
         work += found.work if found else 0
         if found is None:
-            raise NumericsError("NUM101", "with a flywheel tried the steady cycle is lost")
+            raise NumericsError("NUM101", "no steady cycle exists with one of the flywheels of the search")
         orbit = found.orbit
         at = wanted / _irregularity(orbit) - 1
         slope = (at - at_before) / (added - before) if added != before else slope
@@ -152,7 +152,7 @@ def _corrected(
     for _ in range(_MOST_SECANTS):
         found = closed_cycle(cycle.machine.with_flywheel(added), orbit)
         if found is None or not slope > 0:
-            raise NumericsError("NUM101", "the flywheel is not found")
+            raise NumericsError("NUM101", "no flywheel inertia was found")
         work, orbit = work + found.work, found.orbit
         delta, rough = _irregularity(found.orbit), _irregularity(found.rough)
         at = wanted / delta - 1
@@ -162,7 +162,7 @@ def _corrected(
             break
         before, at_before, added = added, at, max(added - at / slope, added / 8)
     else:
-        raise NumericsError("NUM101", "the flywheel is not found")
+        raise NumericsError("NUM101", "no flywheel inertia was found")
     off = MARGIN * wanted * abs(1 / delta - 1 / rough) + abs(at) + FLOOR
     return Estimate.within(added, off / slope + FLOOR * added), work
 

@@ -17,14 +17,14 @@ bound."""
 
 
 def slope_criterion(spec: Shaft, scene: Steady) -> Criterion:
-    """Period of the useful load over the time in which the motor would even out a change of speed.
+    """Ratio of the load period to the time constant of the motor for a speed change.
 
         h = t k/J
 
-    t is the time of a cycle, k the fall of the drive's torque with the speed where it carries the mean load, J the
-    mean inertia, all on the main shaft.
+    t is the cycle time, k the decrease of the drive torque per speed at the mean load, J the mean inertia, all at the
+    main shaft.
 
-    **Range** any machine that its motor can drive; infinite else.
+    **Range** any machine that its motor can drive; otherwise infinite.
     **Error** exact.
     **Source** `laws.shaft.slope_criterion`; the threshold of 1 from the lecture notes Kramatorsk, section on the
     flywheel.
@@ -42,13 +42,13 @@ def slope_criterion(spec: Shaft, scene: Steady) -> Criterion:
 
 
 def slope_bound(spec: Shaft, scene: Steady, loads: Loads) -> Offsets:
-    """Interval of every load of a cycle with the motor's torque held that holds a working motor.
+    """Interval of every load of a cycle with constant motor torque that covers a motor with torque-speed slope.
 
-        |A - A_held| <= k dw Theta/4 but for a constant,  w = w_0 somewhere
+        |A - A_held| <= k dw Theta/4 except for a constant,  w = w_0 somewhere
         M_rms^2 <= M_0^2 + R^2/4 + M_high R dw/(2 w_low),  R = k_m dw,  M_rms >= M_0
 
-    **Range** h below 1, a torque that falls with the speed all over the range, power through the gear from the motor
-    throughout; unbounded else.
+    **Range** h below 1, a torque that decreases with the speed over the whole range, power flow from the motor
+    throughout; otherwise unbounded.
     **Error** a bound.
     **Source** derived in `machines.shaft.cycle.bounds`: a function without a mean and with a range L has an integral
     that swings by no more than L Theta/4; the torque's mean over the angle is that of the load.

@@ -95,11 +95,12 @@ def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Resu
 
         w_i = sqrt((J_(i-1) w_(i-1)^2 + 2 A_i)/J_i)   (6.9)
 
-    `level` halves the steps. The mean of the largest and the smallest speed is w_0, at which the motor carries the mean
-    load.
+    `level` halves the steps. The mean of maximum and minimum speed is w_0, at which the motor torque equals the mean
+    load torque.
 
-    **Range** a motor that carries the mean load; its torque is held at its mean.
-    **Error** second order: the difference to steps of twice the length, and what the speed bends between the steps.
+    **Range** a motor that drives the mean load, with constant mean torque.
+    **Error** second order: the difference to steps of twice the length, and the curvature of the speed between the
+    steps.
     **Source** lecture notes Kramatorsk, chapter 6; Richardson's extrapolation for the error.
     """
     machine = machine_in(spec, scene)
@@ -149,7 +150,9 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
     **Source** the torque curve of the motor.
     """
     carries = bounds.held(machine_in(spec, scene)) is not None
-    return Criterion("m", 0.0 if carries else 1.0, 0.5, "0 where the motor carries the mean load, else 1", "laws.motor")
+    return Criterion(
+        "m", 0.0 if carries else 1.0, 0.5, "0 if the motor drives the mean load, otherwise 1", "laws.motor"
+    )
 
 
 ENERGY_STEP: Solver[Shaft, Steady] = Solver(

@@ -16,18 +16,18 @@ from ptmcalc.machines.shaft.spec import Shaft, Steady
 
 
 def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Result:
-    """Irregularity and inertia to be added, from the swing of the work under a constant motor torque.
+    """Speed fluctuation and additional inertia from the work fluctuation under a constant motor torque.
 
         delta = Delta_A/(J w^2),   J_f = Delta_A/(delta w^2) - J
 
-    w is the mean speed of the steady cycle, J the smallest inertia over the angle: what changes is left out.
+    w is the mean speed of the steady cycle, J the minimum inertia over the angle: the variable part is neglected.
 
-    **Range** a motor whose torque does not follow the speed within the cycle; small changes of the inertia.
-    **Error** no bound: with a working motor slope half as much again as is needed. It never decides.
+    **Range** a motor with a torque independent of the speed within the cycle; small changes of the inertia.
+    **Error** no bound: with an active motor slope the inertia is 50 % too large. The formula never decides a verdict.
     **Source** `laws.shaft.flywheel_inertia`.
     """
     cycle = cycle_of(spec, scene.load)
-    assert cycle is not None, "valid only where there is a cycle"
+    assert cycle is not None, "valid only if there is a cycle"
     (low, _), (high, _) = cycle.orbit.extremes()
     speed = (math.sqrt(2 * low) + math.sqrt(2 * high)) / 2
     inertia, swing = least_inertia(cycle.machine), cycle.machine.survey.work_swing
@@ -56,7 +56,7 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
         carries = cycle_of(spec, scene.load) is not None
     except NumericsError:
         carries = False
-    return Criterion("m", 0.0 if carries else 1.0, 0.5, "0 where there is a steady cycle, else 1", "the cycle itself")
+    return Criterion("m", 0.0 if carries else 1.0, 0.5, "0 if there is a steady cycle, otherwise 1", "the cycle itself")
 
 
 FLYWHEEL_FORMULA: Solver[Shaft, Steady] = Solver(

@@ -32,19 +32,20 @@ def stalls(spec: Shaft, scene: Steady) -> Result:
     have, ask = passed * most * period, needed * period
     if have <= ask:
         message = (
-            f"the motor does at most {_work(have)} in a cycle, load and losses take {_work(ask)}:"
+            f"the motor does at most {_work(have)} in a cycle, load and losses require {_work(ask)}:"
             f" {_work(ask - have)} are missing and the shaft stalls"
         )
-        hint = f"a motor of more than {_torque(needed / passed)} would do"
+        hint = f"a motor of more than {_torque(needed / passed)} would be sufficient"
     else:
         message = (
-            f"the motor could do {_work(have)} in a cycle, load and losses take {_work(ask)}, but their torque of up to"
-            f" {_torque(machine.survey.static_high)} stalls the shaft within the cycle"
+            f"the motor could do {_work(have)} in a cycle, load and losses require {_work(ask)}, but their torque of up"
+            f" to {_torque(machine.survey.static_high)} stalls the shaft within the cycle"
         )
         hint = (
-            f"a larger flywheel, or a motor of {_torque(_ROUND_UP * machine.survey.static_high / passed)} would do"
+            f"a larger flywheel, or a motor of {_torque(_ROUND_UP * machine.survey.static_high / passed)}, would be"
+            " sufficient"
             if machine.survey.static_high > passed * most
-            else "more motor torque at every speed of the cycle would do"
+            else "more motor torque at every speed of the cycle would be sufficient"
         )
     return Result(stalled(machine), work=1, health={"steps": 0.0}, failures=_failures(spec, message, hint))
 
@@ -61,11 +62,11 @@ def races(spec: Shaft, scene: Steady) -> Result:
     ask = machine.survey.static_mean * machine.period
     message = (
         f"the drive does {_work(excess * machine.period)} more in each cycle than load and losses take at any speed"
-        f" ({_work(ask)} without viscous friction): the shaft speeds up without end"
+        f" ({_work(ask)} without viscous friction): the shaft accelerates without limit"
     )
     hint = (
         f"a motor whose torque falls with the speed (`type: induction` or `linear`), or {_torque(excess)} more load or"
-        " losses would do"
+        " losses would be sufficient"
     )
     return Result({}, work=1, failures=_failures(spec, message, hint))
 
@@ -75,11 +76,13 @@ def never_up(spec: Shaft, machine: Machine, target: float) -> tuple[Failure, ...
     most, passed = machine.survey.static_high, machine.drive.ratio * machine.drive.efficiency
     have, speed = passed * _largest_torque(machine), units.show(target, units.ANGULAR_SPEED)
     message = (
-        f"the shaft never comes to {speed}: load, losses and weights take up to {_torque(most)} on it, the motor gives"
-        f" {_torque(have)} at most"
+        f"the shaft never reaches {speed}: load, losses and weights require up to {_torque(most)} on it, the motor"
+        f" torque is at most {_torque(have)}"
     )
     hint = (
-        f"a motor of more than {_torque(most / passed)} would do" if most > have else "more motor torque at each speed"
+        f"a motor of more than {_torque(most / passed)} would be sufficient"
+        if most > have
+        else "more motor torque at each speed"
     )
     return (Failure("SHF103", message, motor_key(spec), hint),)
 
@@ -87,7 +90,7 @@ def never_up(spec: Shaft, machine: Machine, target: float) -> tuple[Failure, ...
 def not_held(spec: Shaft, turns: float, held: float) -> list[Failure]:
     """A shaft that weights and springs turn again where its brake has stopped it, by the checks of its stop."""
     message = (
-        f"the brake does not hold the shaft: weights and springs turn it with {_torque(turns)}, {_torque(held)} hold"
+        f"the brake does not hold the shaft: weights and springs drive it with {_torque(turns)}, {_torque(held)} hold"
     )
     assert spec.brake is not None
     hint = f"a brake of more than {_torque(spec.brake.torque + turns - held)}"

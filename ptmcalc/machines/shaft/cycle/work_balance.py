@@ -12,15 +12,15 @@ from ptmcalc.machines.shaft.steady import surely_stalls
 
 
 def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Result:
-    """Loads of a cycle in which the drive gives the mean of all torques and the inertia does not change.
+    """Loads of a cycle with a constant mean drive torque and a constant inertia.
 
         A_drive = A_useful + A_loss,   dw = Delta_A/(J w_0),   D(w_0) = A_drive/Theta
 
-    A motor whose largest torque all over the cycle does less work than that stalls: the loss factor is 1.
+    A motor stalls if its maximum torque over the cycle does less than the required work: the loss factor is 1.
 
-    **Range** a motor that carries the mean load; the works are exact, the rest is held by the bounds of the effects.
-    **Error** no bar of its own; unbounded where the speed would swing by more than its mean.
-    **Source** work balance of a cycle (6.10); energy swing of the textbook flywheel.
+    **Range** a motor that drives the mean load; the works are exact, the bounds of the effects cover the other loads.
+    **Error** no error bar of its own; unbounded if the speed fluctuation exceeds the mean speed.
+    **Source** work balance of a cycle (6.10); work fluctuation of the textbook flywheel.
     """
     machine = machine_in(spec, scene)
     cycle = bounds.held(machine)
@@ -59,7 +59,7 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
     """
     machine = machine_in(spec, scene)
     decided = bounds.held(machine) is not None or surely_stalls(machine)
-    meaning = "0 where the motor carries the mean load, or provably cannot, else 1"
+    meaning = "0 if the motor drives the mean load, or provably cannot, otherwise 1"
     return Criterion("m", 0.0 if decided else 1.0, 0.5, meaning, "torque curve of the motor")
 
 

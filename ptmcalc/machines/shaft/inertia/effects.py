@@ -20,15 +20,15 @@ the error is unbounded and a run must simulate the effect. A larger value widens
 
 
 def inertia_criterion(spec: Shaft, scene: ShaftScene) -> Criterion:
-    """Torque that the change of the inertia takes, over that on the main shaft.
+    """Ratio of the torque due to the change of inertia to the torque on the main shaft.
 
         q = max |J'| w^2/(2 |M|)
 
-    w is the speed at which the motor carries the mean load (steady), the speed asked for (run-up) or that at the
-    beginning (run-out); M the mean torque of the drive, in a run-out that of losses and brake.
+    w is the speed at which the motor drives the mean load (steady cycle), the target speed (run-up) or the initial
+    speed (stop); M is the mean drive torque, in a stop the torque of losses and brake.
 
-    **Range** any shaft; infinite where the motor cannot carry the mean load, or nothing stops the shaft.
-    **Error** exact for the torques named.
+    **Range** any shaft; infinite if the motor cannot drive the mean load, or nothing stops the shaft.
+    **Error** exact for the stated torques.
     **Source** `laws.shaft.inertia_criterion`; the threshold of 5 % is an engineering choice.
     """
     machine = machine_in(spec, scene)
@@ -36,19 +36,17 @@ def inertia_criterion(spec: Shaft, scene: ShaftScene) -> Criterion:
     steepest = max(abs(survey.slope_low), abs(survey.slope_high)) if machine.changing else 0.0
     speed, torque = mean_torque(spec, scene)
     value = float(law.inertia_criterion(steepest, speed, torque))
-    return Criterion(
-        "q", value, INERTIA_THRESHOLD, "torque that the changing inertia takes, over that on the shaft", "laws.shaft"
-    )
+    return Criterion("q", value, INERTIA_THRESHOLD, "torque of the varying inertia / torque on the shaft", "laws.shaft")
 
 
 def inertia_bound(spec: Shaft, scene: ShaftScene, loads: Loads) -> Offsets:
-    """Interval of every load of the shaft with its mean inertia that holds any change between the extremes of J.
+    """Interval of every load of the shaft with mean inertia that covers any variation between the extremes of J.
 
         steady:   delta from x = 2 T/J with T and J anywhere in their ranges, (w_max + w_min)/2 = w_0
         run-up:   J_low/(D - R_low - J'_low w^2/2) <= dt/dw <= J_high/(D - R_high - J'_high w^2/2)
-        run-out:  delay, rise and viscous torque at both ends of the rate of the reduced time
+        stop:     delay, rise and viscous torque at both ends of the rate of the reduced time
 
-    **Range** q below 0.05; unbounded above, and where the gear could be driven from the wrong side.
+    **Range** q below 0.05; unbounded above, and if the power flow through the gear may reverse.
     **Error** a bound.
     **Source** derived in the bounds of cycle, run-up and run-out: comparison of first-order differential equations.
     """

@@ -98,7 +98,7 @@ def decoded(
     most = slowing.too_long(machine, float(fitted.angle[-1]))
     if most or not math.isfinite(float(fitted.angle[-1])):
         turned, limit = (units.show(one, units.ANGLE) for one in (float(fitted.angle[-1]), most))
-        raise UsageError(f"the shaft turns by {turned} in the record, more than {limit}", "cut out a part of it")
+        raise UsageError(f"the shaft turns by {turned} in the record, more than {limit}", "select a part of the record")
     with np.errstate(all="ignore"):
         found = (slowing.run_out if phase == "run_out" else slowing.braked)(machine, time, speed, angle)
     values = _losses(found, float(np.median(speed))) if phase == "run_out" else _brake(found)
@@ -121,23 +121,25 @@ def _sized(time: FloatArray, speed: FloatArray) -> None:
     if span < _SHORTEST:
         raise UsageError(f"the record lasts {span:.2g} s, less than {_SHORTEST:g} s", "check the unit of `time`")
     if fastest < _SLOWEST:
-        reason = f"the largest speed of the record is {fastest:.2g} rad/s: the shaft stands still"
+        reason = f"the largest speed of the record is {fastest:.2g} rad/s: the shaft is at standstill"
         raise UsageError(reason, "check the unit of `speed`")
 
 
 def _moving(phase: str, fitted: decode.Fitted, speed: FloatArray) -> None:
     """The shaft turns forward, and speeds up in a run-up, slows down else."""
     if float(np.median(speed)) < 0:
-        raise UsageError("the shaft turns backward in the record", "change the sign of the speeds")
+        raise UsageError("the shaft rotates backward in the record", "change the sign of the speeds")
     part = max(len(speed) // _PART, 3)
     first, last = float(np.mean(speed[:part])), float(np.mean(speed[-part:]))
     unsure = _SURE * fitted.noise * math.sqrt(2 / part)
     shown = f"from {units.show(first, units.ANGULAR_SPEED)} to {units.show(last, units.ANGULAR_SPEED)}"
     if phase == "run_up" and last < first - unsure:
-        raise UsageError(f"the speed falls {shown}: the record shows no run-up", "write `--phase run_out` or `brake`")
+        raise UsageError(
+            f"the speed decreases {shown}: the record shows no run-up", "write `--phase run_out` or `brake`"
+        )
     if phase != "run_up" and last > first + unsure:
         name = "run-out" if phase == "run_out" else "braking"
-        raise UsageError(f"the speed rises {shown}: the record shows no {name}", "write `--phase run_up`")
+        raise UsageError(f"the speed increases {shown}: the record shows no {name}", "write `--phase run_up`")
 
 
 def _finite(found: Decoded) -> Decoded:
@@ -145,7 +147,7 @@ def _finite(found: Decoded) -> Decoded:
     numbers = [number for row in found.rows for number in (row.torque, row.uncertainty)]
     numbers += [number for one in found.values for number in (one.value, one.uncertainty)]
     if not all(map(math.isfinite, numbers)):
-        reason = "the model does not follow the record: no finite torque fits it"
+        reason = "the model does not fit the record for any finite torque"
         raise UsageError(reason, "check the units of its columns and the phase")
     return found
 
@@ -196,7 +198,7 @@ def _losses(found: slowing.Slowing, speed: float) -> tuple[Value, ...]:
             "a longer record, or one with less noise",
         )
     if mean < 0:
-        reason = f"the shaft gains {units.show(-mean, units.TORQUE)}: the record shows no run-out"
+        reason = f"the shaft gains {units.show(-mean, units.TORQUE)}: the record shows no coasting"
         raise UsageError(reason, "check `inertia`, `potential` and `--from`")
     one, other = (_TIMES * math.sqrt(max(float(covariance[k, k]), 0.0)) for k in (1, 2))
     return (

@@ -119,7 +119,7 @@ def departure(spec: Shaft, scene: RunOut) -> Departure:
         machine = machine.without_brake()
     cycle = cycle_of(spec, scene.after)
     if cycle is None:
-        raise NumericsError("NUM102", "the motor stalls: there is no steady cycle a run-out could begin in")
+        raise NumericsError("NUM102", "the motor stalls: there is no steady cycle from which a stop could start")
     return Departure(machine, cycle, scene.start)
 
 

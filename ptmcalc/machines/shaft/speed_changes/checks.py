@@ -15,9 +15,9 @@ Loads = Mapping[str, Estimate]
 
 
 def _run_up_limit(spec: Shaft, scene: RunUp) -> Estimate:
-    """Longest run-up of the file.
+    """Maximum run-up time of the file.
 
-    **Range** cage motors bear 5 to 10 s of direct starting, see the maker's list.
+    **Range** cage motors withstand 5 to 10 s of direct-on-line starting, see the manufacturer's catalogue.
     **Error** none: a chosen limit.
     **Source** the design's own requirement.
     """
@@ -70,9 +70,9 @@ def _stop_repair(spec: Shaft, scene: RunOut) -> KeyPath:
 
 
 def _stop_angle_limit(spec: Shaft, scene: RunOut) -> Estimate:
-    """Largest angle of a braked run-out of the file.
+    """Permissible stopping angle of the file.
 
-    **Range** for presses what safeguarding allows between the signal and the closing of the tool.
+    **Range** for presses the angle permitted by safeguarding between the signal and the closing of the tool.
     **Error** none: a chosen limit.
     **Source** the design's own requirement.
     """
@@ -81,9 +81,9 @@ def _stop_angle_limit(spec: Shaft, scene: RunOut) -> Estimate:
 
 
 def _stop_time_limit(spec: Shaft, scene: RunOut) -> Estimate:
-    """Longest braked run-out of the file.
+    """Permissible stopping time of the file.
 
-    **Range** for a safeguard at a distance S from the tool at most S/(1.6 m/s) less its own response.
+    **Range** for a safeguard at a distance S from the tool at most S/(1.6 m/s) less its own response time.
     **Error** none: a chosen limit.
     **Source** the design's own requirement; walking speed of 1.6 m/s from ISO 13855.
     """

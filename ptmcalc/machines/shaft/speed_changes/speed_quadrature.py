@@ -18,11 +18,11 @@ from ptmcalc.machines.shaft.speed_changes.loads import OF_RUN_UP
 
 
 def run(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-up with the mean inertia against the mean of the torques over the angle.
+    """Time and angle of a run-up with the mean inertia and the mean torques over the angle.
 
         t = integral of J dw/(D(w) - b w - R),   phi = integral of w dt
 
-    **Range** a motor whose torque depends on its speed alone, and that drives all the way.
+    **Range** a motor with a torque that depends on its speed alone and drives throughout.
     **Error** the load anywhere between its extremes over the angle is the bar; infinite where one of them stalls the
     motor. The quadrature itself is good to ten digits.
     **Source** Newton's law, separated.
@@ -78,7 +78,7 @@ def valid(spec: Shaft, scene: RunUp) -> Criterion:
         and not machine.drive.time_dependent
         and run_up_bounds.drives_all_the_way(machine, target_speed(spec, scene), 0.0)
     )
-    meaning = "0 for a torque that depends on the speed alone and never brakes, else 1"
+    meaning = "0 for a torque that depends on the speed alone and never brakes, otherwise 1"
     return Criterion("m", 0.0 if fits else 1.0, 0.5, meaning, "torque curve of the motor")
 
 

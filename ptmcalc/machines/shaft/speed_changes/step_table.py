@@ -30,13 +30,13 @@ machines, a larger one allows longer runs. No verdict depends on it."""
 
 
 def run(spec: Shaft, scene: Scene, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-up or a run-out by steps of constant acceleration (6.1).
+    """Time and angle of a run-up or a stop by steps of constant acceleration (6.1).
 
         w_(i+1) = w_i + eps_i dt,   phi_(i+1) = phi_i + w_i dt + eps_i dt^2/2
 
-    with dt = min(0.02 2 pi/w, 0.1 J/|dM/dw|) at the largest speed and the steepest fall of the motor's curve.
+    with dt = min(0.02 2 pi/w, 0.1 J/|dM/dw|) at the maximum speed and the steepest decrease of the motor curve.
 
-    **Range** any machine that comes to its end in 1500 steps.
+    **Range** any machine that reaches the end of its motion in 1500 steps.
     **Error** first order: the difference to steps of twice the length (Richardson) is shown as its bar; it is no bound
     and never decides.
     **Source** lecture notes Kramatorsk, chapter 6; step size from its section on accuracy.
@@ -53,7 +53,7 @@ def run(spec: Shaft, scene: Scene, carried: frozenset[str], level: int) -> Resul
     step = step_size(machine, max(speed, until))
     fine, coarse = (step_table(rate, begin, speed, until, dt, _MOST_STEPS) for dt in (step, 2 * step))
     if not fine.reached or not coarse.reached:
-        raise NumericsError("NUM103", f"the step table does not come to its end in {_MOST_STEPS} steps")
+        raise NumericsError("NUM103", f"the step table does not end within {_MOST_STEPS} steps")
     loads = {name: _found(fine, coarse, k) for k, name in enumerate(names)}
     work = fine.steps + coarse.steps
     return Result(loads, work=work, window=(0.0, fine.time), histories=lambda: _histories(fine, names))
@@ -117,7 +117,7 @@ def valid(spec: Shaft, scene: Scene) -> Criterion:
     inertia = survey.inertia_mean + drive.ratio**2 * drive.motor_inertia
     ratio = math.inf
     if isinstance(scene, RunOut) and not _departs(spec, scene):
-        return Criterion("n", ratio, 1.0, "number of steps over what the table may have", "step of the textbook")
+        return Criterion("n", ratio, 1.0, "number of steps / maximum number of steps", "step of the textbook")
     if isinstance(scene, RunUp):
         target = target_speed(spec, scene)
         if not drive.time_dependent:
@@ -129,7 +129,7 @@ def valid(spec: Shaft, scene: Scene) -> Criterion:
         delay = machine.brake.delay + machine.brake.rise if machine.brake else 0.0
         if speed and torque > 0:
             ratio = (inertia * speed / torque + delay) / step_size(machine, speed) / _MOST_STEPS
-    return Criterion("n", ratio, 1.0, "number of steps over what the table may have", "step of the textbook")
+    return Criterion("n", ratio, 1.0, "number of steps / maximum number of steps", "step of the textbook")
 
 
 def _departs(spec: Shaft, scene: RunOut) -> bool:

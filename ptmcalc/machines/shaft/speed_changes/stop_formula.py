@@ -12,18 +12,19 @@ from ptmcalc.machines.shaft.speed_changes import run_out_bounds
 from ptmcalc.machines.shaft.speed_changes.cases import departure, is_braked, stop_case
 from ptmcalc.machines.shaft.speed_changes.loads import OF_RUN_OUT
 
-_MEANING = "0 where power goes through the gear from the rotor throughout and the brake holds at any angle, else 1"
+_MEANING = "0 if the power flows from the rotor throughout and the brake holds at any angle, otherwise 1"
 
 
 def run(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-out that begins with the kinetic energy of the steady cycle, with the mean inertia.
+    """Time and angle of a stop with the mean inertia, from the kinetic energy of the steady cycle.
 
         J w' = -(M_l + b w + M_b(t))   (`laws.shaft.braked_stop`)
 
-    Without an angle in the file it begins with the largest kinetic energy of the cycle, which gives the longest one.
+    Without an angle in the file, the stop begins with the maximum kinetic energy of the cycle and is the longest
+    possible stop.
 
-    **Range** power through the gear from the rotor throughout; the state it begins in is that of the exact cycle.
-    **Error** torques over the angle anywhere between their extremes are the bar; infinite where nothing stops the
+    **Range** power flow from the rotor throughout; the initial state is that of the exact cycle.
+    **Error** the error bar covers torques anywhere between their extremes over the angle; infinite if nothing stops the
     shaft.
     **Source** `laws.shaft.braked_stop`.
     """

@@ -39,16 +39,17 @@ _SLACK = 1e-3
 
 
 def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-up from the motion itself.
+    """Time and angle of a run-up from the equation of motion.
 
         phi' = w,   w' = (D(w, t) - R(phi) - b w - J' w^2/2)/J(phi)
 
-    Radau collocation with 11 nodes in time, cut at every break of the angle, time and stage of the motor, corner of its
-    curve or of the gear, and at the speed asked for; whole cycles at once over the angle once the time does not matter.
+    Radau collocation with 11 nodes in time, divided at every discontinuity of the angle, time and stage of the motor,
+    corner of its curve or of the gear, and at the target speed; whole cycles in one step over the angle if the time has
+    no influence.
 
     **Range** rigid links, one degree of freedom, rotation in one sense.
     **Error** twice the difference to the same run with 7 nodes and a tolerance ten thousand times wider, and 1e-10 for
-    rounding. Where the balance of works, by a quadrature of its own, leaves more than 1e-8, nothing is known.
+    rounding. If the work balance, by a separate quadrature, has an error above 1e-8, there is no result.
     **Source** Radau IIA: Hairer and Wanner, Solving ordinary differential equations II; derived in `numerics.passage`.
     """
     machine, target = machine_in(spec, scene), target_speed(spec, scene)
@@ -89,18 +90,18 @@ def _settles_below(spec: Shaft, scene: RunUp, machine: Machine, target: float, *
 
 
 def run_out(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-out, and the brake it needs, from the motion itself.
+    """Time and angle of a stop, and the required brake torque, from the equation of motion.
 
         phi' = w,   w' = -(R(phi) + b w + M_b(t) + J' w^2/2)/J(phi)
 
-    It begins in the exact steady cycle, at the angle of the file or at the worst one (`machines.shaft.worst`). Radau
-    collocation as in a run-up, cut at the times of the brake and at rest. The brake torque for the wanted stop is a
-    root of the same runs.
+    The stop begins in the exact steady cycle, at the angle of the file or at the worst one (`machines.shaft.worst`).
+    Radau collocation as in a run-up, divided at the times of the brake and at standstill. The brake torque for the
+    required stop is a root of the same runs.
 
-    **Range** rigid links, one degree of freedom, rotation in one sense: the run ends at rest.
+    **Range** rigid links, one degree of freedom, rotation in one sense: the run ends at standstill.
     **Error** twice the difference to the same run with 7 nodes and a tolerance ten thousand times wider, and 1e-10 for
-    rounding; of the worst angle what the runs from some angles leave open between them. Where the balance of works, by
-    a quadrature of its own, leaves more than 1e-8, nothing is known.
+    rounding; for the worst angle, the error between the sampled angles. If the work balance, by a separate quadrature,
+    has an error above 1e-8, there is no result.
     **Source** Radau IIA: Hairer and Wanner, Solving ordinary differential equations II; derived in `numerics.passage`.
     """
     start, braked = departure(spec, scene), is_braked(spec, scene)
@@ -181,7 +182,7 @@ def _turned_again(spec: Shaft, scene: RunOut, runs: Iterable[motion.Run]) -> tup
     if turns <= held * (1 + _SLACK):
         return [], []
     if not is_braked(spec, scene):
-        message = "losses do not hold the shaft where it stops: weights and springs turn it again"
+        message = "the losses do not hold the stopped shaft: weights and springs drive it again"
         return [Finding("NUM104", message, ("losses", "torque"))], []
     return [], impossible.not_held(spec, turns, held)
 

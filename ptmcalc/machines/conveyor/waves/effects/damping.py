@@ -37,20 +37,22 @@ def damping_change(spec: Conveyor, line: BeltLine) -> float:
 
 
 def damping_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
-    """How far the belt's damping moves the frequency of its slowest wave.
+    """Frequency shift of the slowest wave due to the belt damping.
 
-        d = |EA*/EA - 1|/2 at w = pi/(2 T);   infinite in a jam, whose front holds every frequency
+        d = |EA*/EA - 1|/2 at w = pi/(2 T);   infinite in a jam, whose front contains every frequency
 
-    **Range** a file that gives `belt.damping`; not a jam from one moment to the next of a Kelvin-Voigt belt, whose
-    answer to a jump of speed is an infinite force.
-    **Error** an estimate: the slowest wave of a uniform loop stands for that of any loop.
-    **Source** `laws.belt_damping`; the threshold of 0.1 % is an engineering choice: a swing then loses 0.3 %, the fifth
-    echo 3 %.
+    **Range** a file that gives `belt.damping`; not an instantaneous jam of a Kelvin-Voigt belt, whose response to a
+    speed jump is an infinite force.
+    **Error** an estimate: the slowest wave of a uniform loop represents any loop.
+    **Source** `laws.belt_damping`; the threshold of 0.1 % is an engineering choice: an oscillation then loses 0.3 %,
+    the fifth echo 3 %.
     """
     if spec.belt.damping is None or jumps(spec, scene):
         return None
     value = math.inf if isinstance(scene, Jam) else damping_change(spec, belt_line(spec, scene))
-    return Criterion("d", value, DAMPING_THRESHOLD, "what damping makes of the slowest wave", "laws.belt_damping")
+    return Criterion(
+        "d", value, DAMPING_THRESHOLD, "frequency shift of the slowest wave by damping", "laws.belt_damping"
+    )
 
 
 def jumps(spec: Conveyor, scene: ConveyorScene) -> bool:
@@ -60,19 +62,19 @@ def jumps(spec: Conveyor, scene: ConveyorScene) -> bool:
 
 
 def damping_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of any tension when the belt is taken as elastic.
+    """Change of any tension if the belt is assumed undamped.
 
-        c = min(k sqrt(d (1 + n)), 2) (S_max - S_min)/2,   n the contour times of the window
-        k = T/t_r a start of a running profile that rises over t_r, a contour time T at least; else 6, and 3 at a drum
-            while its grip is worst
+        c = min(k sqrt(d (1 + n)), 2) (S_max - S_min)/2,   n wave circuits in the window
+        k = T/t_r a start of a running profile that rises over t_r, at least one wave circuit T; else 6, and 3
+            at a pulley at its worst traction
 
-    A front that has gone round n times is about sqrt(d n) of the contour wide, and peaks are made of fronts that meet.
-    A rise of a contour time or more sends no front but a slope, of which dampers round the corners only: by the rise
-    over the width of a front.
+    After n circuits a front is about sqrt(d n) of the loop wide, and peaks result from fronts that meet. A rise of one
+    wave circuit or longer produces no front but a slope; damping rounds its corners only, by the rise relative to the
+    width of a front.
 
     **Range** d below 0.001; unbounded above, and in a jam.
-    **Error** calibrated: the largest value of the sample was 3.8 in place of 6; of 360 others 4.9, 2.0 in place of 3,
-    and 0.55 in place of 1.
+    **Error** calibrated: the maximum of the sample was 3.8 in place of 6; of 360 others 4.9, 2.0 in place of 3, and
+    0.55 in place of 1.
     **Source** width of a front in a Kelvin-Voigt belt, sqrt(2 t_r t); coverage sample.
     """
     criterion = damping_criterion(spec, scene)

@@ -29,11 +29,11 @@ belt at the head deviates by less than a fifth. Larger values widen the error ba
 
 
 def gear_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Relative change of the stopping time when the losses of each gear are on the side that is driven.
+    """Relative change of the stopping time if the losses of each gear act on the driven side.
 
         |t_changing - t_fixed|/t_fixed   of the rigid conveyor
 
-    **Range** any stop; 0 where the belt does not stop.
+    **Range** any stop; 0 if the belt does not stop.
     **Error** that of the integration, below 1e-4.
     **Source** power through a gear: losses are on the driven side (`stopping.gear_losses.changing_sides`).
     """
@@ -47,14 +47,14 @@ def _gear_change(spec: Conveyor, scene: ConveyorScene) -> GearChange:
 
 
 def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of the loads of a stop when the losses of its gears change their side during it.
+    """Change of the loads of a stop if the gear losses change their side during the stop.
 
-        dS = 2 dF,   dF the largest difference of the gear's force;   dt, ds: 1.2 times those of the rigid conveyor
+        dS = 2 dF,   dF the maximum difference of the gear force;   dt, ds: 1.2 times those of the rigid conveyor
 
-    A pulley that slips already keeps its grip.
+    A pulley that already slips keeps its traction.
 
     **Range** any stop.
-    **Error** a bound of the waves; the belt at the head follows the rigid body within a fifth of the change.
+    **Error** a bound of the waves; the belt speed at the head follows the rigid body within a fifth of the change.
     **Source** `stopping.gear_losses.changing_sides`.
     """
     change = _gear_change(spec, scene)
@@ -75,7 +75,7 @@ def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
 GEAR_LOSSES = Effect(
     "gear_losses",
-    "side of the gear losses during a stop",
+    "direction of the gear losses during a stop",
     frozenset({Stop, EmergencyStop, Coast}),
     gear_criterion,
     gear_bound,

@@ -35,14 +35,14 @@ was 1.5, of the leaving tension. A smaller value loses the safety of the bound; 
 
 
 def coulomb_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Idler friction over the force that accelerates the belt.
+    """Ratio of the idler friction to the accelerating force of the belt.
 
-        W_idlers/(m_belt a);   0 for a start of a belt with the running friction frozen in it
+        W_idlers/(m_belt a);   0 for a start with the running tensions
 
-    **Range** any scene in motion. A belt that starts from the frozen profile slides forward from the first moment on,
-    unless an imposed speed rises so sharply that waves turn it back (`model.thrown_back`).
+    **Range** any scene in motion. A belt that starts with its running tensions slides forward from the beginning,
+    unless an imposed speed rises so fast that waves reverse it (`model.thrown_back`).
     **Error** exact.
-    **Source** balance of a friction front; the threshold of 10 % is an engineering choice.
+    **Source** force balance of a friction front; the threshold of 10 % is an engineering choice.
     """
     line = belt_line(spec, scene)
     pulled = belt_mass(line) * (
@@ -52,20 +52,20 @@ def coulomb_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     value = idlers / pulled if pulled > 0 else math.inf
     if slides_on(spec, scene):
         value = 0.0
-    return Criterion("W/(m a)", value, COULOMB_THRESHOLD, "idler friction over the belt's inertia", "Newton's law")
+    return Criterion("W/(m a)", value, COULOMB_THRESHOLD, "idler friction / inertia force of the belt", "Newton's law")
 
 
 def coulomb_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of any tension when a relaxed belt is taken as one with the running friction frozen in it.
+    """Change of any tension if a relaxed belt is assumed to start with its running tensions.
 
         d = k W_idlers,   k = 1.5, and 0.75 of a loop of fixed length
 
-    The tension profiles differ by W_idlers before the start; a front that meets half the friction arrives with so much
-    more force. A loop of fixed length keeps its mean tension, so a half of what differs goes to either side.
+    The tension profiles differ by W_idlers before the start; a front against half the friction arrives with a
+    correspondingly larger force. A loop of fixed length keeps its mean tension, so that half of the difference acts on
+    either side.
 
     **Range** W_idlers/(m_belt a) below 0.1; unbounded above.
-    **Error** calibrated: of 360 starts the belt in cells was off by 0.94 at most in place of 1.5, and by 0.51 in place
-    of 0.75.
+    **Error** calibrated: over 360 starts, k was at most 0.94 instead of 1.5, and 0.51 instead of 0.75.
     **Source** front speeds with Coulomb friction (F - w x/2 against F - w L), lecture notes Kramatorsk 2007 completed.
     """
     criterion = coulomb_criterion(spec, scene)
@@ -84,13 +84,13 @@ def slides_on(spec: Conveyor, scene: ConveyorScene) -> bool:
 
 
 def speed_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Part of the idlers' resistance at rated speed that is proportional to the speed.
+    """Part of the idler resistance at rated speed that is proportional to the speed.
 
         s = W_v(v_rated)/W(v_rated)
 
-    **Range** any scene in motion; 0 where the file says nothing of it.
+    **Range** any scene in motion; 0 if the file does not give it.
     **Error** exact: an input.
-    **Source** running resistance grows with the speed; the threshold of 5 % is an engineering choice.
+    **Source** running resistance increases with the speed; the threshold of 5 % is an engineering choice.
     """
     share = spec.resistance.speed_share
     meaning = "part of the idler resistance proportional to speed"
@@ -98,19 +98,20 @@ def speed_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 
 
 def speed_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of any tension when all of the resistance is taken as independent of the speed.
+    """Change of any tension if the whole resistance is assumed independent of the speed.
 
-        d = k s W_idlers,   k = 3 a start, 12 any other scene, 2 the lowest tensions and the grip of a stop
+        d = k s W_idlers,   k = 3 a start, 12 any other scene, 2 the minimum tensions and the traction of a stop
 
-    At rest W_idlers is too large by s W_idlers; a wave that finds so much less against it may double it. A stop goes on
-    longer with less resistance, and fronts that meet once more before the belt sticks add up. The lowest tensions of
-    a stop and its worst grip come with its first waves, while the belt still runs at nearly the speed at which both
-    resistances are the same.
+    At standstill W_idlers is too large by s W_idlers; a wave reflection may double this difference. A stop lasts longer
+    with less resistance, and fronts that meet again before standstill add up. The minimum tensions and the worst
+    traction of a stop occur with its first waves, while the belt still runs near rated speed, where both resistances
+    are equal.
 
-    **Range** s below 5 %; unbounded above, and where the belt slides on its drum before it starts.
-    **Error** calibrated on 250 machines: the largest k were 2.1 and 8.9, the next one of a stop 2.9; on 240 others 0.8
-    of the lowest tension in a stop, 1.5 of that at the run-off, and 0.6 of those that make the grip worst.
-    **Source** balance of the belt.
+    **Range** s below 5 %; unbounded above, and if the belt slips on its pulley before it starts.
+    **Error** calibrated on 250 machines: the largest k were 2.1 and 8.9, the second largest of a stop 2.9; on 240
+    others 0.8 for the minimum tension in a stop, 1.5 for the leaving tension, and 0.6 for the tensions of the worst
+    traction.
+    **Source** force balance of the belt.
     """
     share = spec.resistance.speed_share
     if share == 0:

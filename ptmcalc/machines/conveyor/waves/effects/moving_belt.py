@@ -49,37 +49,38 @@ def belt_travel(line: BeltLine) -> float:
 
 
 def travel_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Speed of the belt over that of its slowest wave.
+    """Ratio of the belt speed to the speed of its slowest wave.
 
         v/c
 
     **Range** any scene in motion.
     **Error** exact.
-    **Source** Doppler's shift of waves on a moving string. A round trip changes by (v/c)^2 only, but waves that meet do
-    so elsewhere and at another time, by v/c.
+    **Source** Doppler shift of waves on a moving string. A round trip changes by (v/c)^2 only, but the place and time
+    at which waves meet change by v/c.
     """
     value = belt_travel(belt_line(spec, scene))
-    return Criterion("v/c", value, TRAVEL_THRESHOLD, "belt speed over that of its slowest wave", "numerics.belt.travel")
+    return Criterion("v/c", value, TRAVEL_THRESHOLD, "belt speed / speed of the slowest wave", "numerics.belt.travel")
 
 
 def travel_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of any tension when waves are taken to run both ways at one speed.
+    """Change of any tension if waves are assumed to travel both ways at the same speed.
 
         d = k (v/c) (S_max - S_min)/2       k = 4 a start, 3 sqrt(1 + n) of a loop of fixed length, 20 a jam
         d = k (v/c) a b_max g               k = 3 by a torque at once, 10 any rise, 3 (1 + n) a loop of fixed length
 
-    In a stop k = 10 of the highest tensions and 5 of the lowest, of a loop of fixed length 4 and 10. At a drum while
-    its grip is worst k = 3 of (S_max - S_min)/2 in a start, 5 in a stop, 2.5 in a stop of such a loop.
+    In a stop k = 10 of the highest tensions and 5 of the lowest, of a loop of fixed length 4 and 10. At a pulley at its
+    worst traction k = 3 of (S_max - S_min)/2 in a start, 5 in a stop, 2.5 in a stop of such a loop.
 
-    The lesser of both in a plain start, with a b_max g the largest stray of the tension from the rigid body's
-    (`laws.loop_bounds.stray`); n are the contour times of the window. Waves that run round a closed loop either way
-    part by v/c in each; elsewhere every wave runs both ways, and its round trip changes by (v/c)^2 only.
+    The smaller of both applies in a plain start; a b_max g is the maximum deviation of the tension from the rigid body
+    (`laws.loop_bounds.stray`), n the number of wave circuits in the window. Waves that travel around a closed loop in
+    opposite directions separate by v/c per circuit; elsewhere every wave travels both ways, and its round trip changes
+    by (v/c)^2 only.
 
     **Range** v/c below 0.03; unbounded above.
-    **Error** calibrated on 900 machines: the largest k were 2.2, 1.3 sqrt(1 + n), 8.9 of a jam; over the stray 1.8, 6.3
-    and 1.5 (1 + n). On 490 others: of a stop 5.9 and 2.6, of a loop 1.7 and 5.5; of the grip 1.7, 3.6
-    and 1.5.
-    **Source** waves that meet are displaced by v/c of their way; coverage samples.
+    **Error** calibrated on 900 machines: the largest k were 2.2, 1.3 sqrt(1 + n), 8.9 of a jam; relative to the
+    deviation 1.8, 6.3 and 1.5 (1 + n). On 490 others: 5.9 and 2.6 for a stop, 1.7 and 5.5 for a loop of fixed length;
+    1.7, 3.6 and 1.5 for the traction.
+    **Source** the meeting point of waves shifts by v/c of their path; coverage samples.
     """
     line = running(spec, scene)
     share = belt_travel(line)

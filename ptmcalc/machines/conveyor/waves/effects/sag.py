@@ -34,13 +34,13 @@ calibrated factor to deeper sag; a smaller one leaves more scenes without a boun
 
 
 def sag_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
-    """Softening of the belt by sag at the lowest tension the waves can bring.
+    """Softening of the belt by sag at the lowest tension of the waves.
 
         f = EA (w l)^2/(12 S_low^3)
 
-    S_low is the lower end of the wave bound in a start, and the smallest static tension in a stop or a jam.
+    S_low is the lower end of the wave bound in a start, and the minimum static tension in a stop or a jam.
 
-    **Range** idler pitches given; infinite where the belt can lose its tension.
+    **Range** given idler pitches; infinite if the belt can lose its tension.
     **Error** in a start an upper bound.
     **Source** Ernst (`laws.sag.softening`); the threshold of 5 % is an engineering choice.
     """
@@ -51,7 +51,9 @@ def sag_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
         value = _softening(line, float(min((*line.static_ends(RETURN), *line.static_ends(CARRY)))))
     if value is None:
         return None
-    return Criterion("f", value, SAG_THRESHOLD, "give of the sagging spans over that of the belt", "laws.sag.softening")
+    return Criterion(
+        "f", value, SAG_THRESHOLD, "compliance of the sagging spans / compliance of the belt", "laws.sag.softening"
+    )
 
 
 def _softening(line: BeltLine, lowest: float) -> float | None:
@@ -63,15 +65,15 @@ def _softening(line: BeltLine, lowest: float) -> float | None:
 
 
 def sag_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of any tension when the sagging spans are taken as straight.
+    """Change of any tension if the sag of the spans is neglected.
 
         d = min(0.4 f sqrt(1 + n), 2) a b_max g,   f at the lowest tension the run found       start
         d = min(1.0 f sqrt(1 + n), 2) (S_max - S_min)/2                                        any other scene
 
-    **Range** f below 0.05 (a plain start, where a richer solver carries sag) or 0.5 at the lowest tension of the run;
-    unbounded above, and where the run does not know it.
-    **Error** calibrated: the largest value of the sample was 0.17 in place of 0.4; of 218 stops and starts of a relaxed
-    belt, nonlinear elements with Ernst spans against the same without, 0.45 in place of 1.0 (the next one 0.27).
+    **Range** f below 0.05 (a plain start, for which another solver simulates sag) or 0.5 at the lowest tension of the
+    run; unbounded above, and if the run does not state it.
+    **Error** calibrated: the maximum of the sample was 0.17 instead of 0.4; of 218 stops and starts of a relaxed belt,
+    nonlinear elements with Ernst spans against the same without, 0.45 instead of 1.0 (second largest 0.27).
     **Source** perturbation of the compliance; coverage samples.
     """
     lowest = loads["tension_min"].low if "tension_min" in loads else -math.inf

@@ -15,13 +15,13 @@ from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anyth
 
 
 def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
-    """Most of a drum's grip that the scene can use.
+    """Maximum traction utilisation of a pulley in the scene.
 
         U_b = (S_on - rho v^2)/((S_off - rho v^2) exp(mu alpha)) at the bounds of both sides       start, one drive
-        the same with the rigid body's tensions, the dynamic part twice, drum by drum             anything else
+        the same with the tensions of the rigid body, twice the dynamic part, each pulley   all other scenes
 
-    **Range** the friction of a drum given.
-    **Error** an upper bound in a start with one drive, else an estimate.
+    **Range** given friction of the pulley.
+    **Error** an upper bound in a start with one drive, otherwise an estimate.
     **Source** Euler-Eytelwein (`laws.capstan`), tensions from `laws.loop_bounds`; the threshold is 1/k_T of the file.
     """
     if all(drive.drum.friction is None for drive in spec.all_drives.values()):
@@ -36,11 +36,11 @@ def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
 
 
 def slip_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """A belt that never comes to the limit of its grip never slips: then nothing changes, else anything.
+    """A belt that never reaches its traction limit never slips: zero change; otherwise unbounded.
 
-        U_max < 1 with its whole bar  =>  no change
+        U_max < 1 with its error bar  =>  no change
 
-    **Range** any run that knows the utilisation.
+    **Range** any run that computes the utilisation.
     **Error** exact.
     **Source** slip starts where U reaches 1 (`laws.capstan`).
     """

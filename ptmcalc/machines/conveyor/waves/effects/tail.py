@@ -30,7 +30,7 @@ sample was 3.4. A smaller value loses the safety of the bound; a larger one wide
 
 
 def jump_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Part of a wave that the tail sends back because carry and return strand differ.
+    """Part of a wave that the tail reflects because carrying and return strand differ.
 
         r = |Z1 - Z2|/(Z1 + Z2)
 
@@ -40,19 +40,19 @@ def jump_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """
     line = belt_line(spec, scene)
     value = abs(wave.reflection(line.impedance(CARRY), line.impedance(RETURN)))
-    return Criterion("r", value, JUMP_THRESHOLD, "part of a wave the tail reflects", "laws.wave.reflection")
+    return Criterion("r", value, JUMP_THRESHOLD, "reflected part of a wave at the tail", "laws.wave.reflection")
 
 
 def jump_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of any tension when the return strand is given the impedance of the carry strand.
+    """Change of any tension if the return strand is assumed to have the impedance of the carrying strand.
 
         d = r a M_belt + min(2.5 r sqrt(1 + n), 2) a b_max g
 
-    The first term is the change of the return strand's mass (2 r of it); the second grows with the number n of
-    contour times in the window and is capped by the stray of both motions.
+    The first term is the change of the return strand's mass (2 r of it); the second grows with the number n of wave
+    circuits in the window and is limited by the deviation of both motions.
 
     **Range** r below 0.02; unbounded above.
-    **Error** calibrated: the largest value of the sample was 1.6 in place of 2.5.
+    **Error** calibrated: the maximum of the sample was 1.6 instead of 2.5.
     **Source** perturbation of the reflected waves; coverage sample.
     """
     r = jump_criterion(spec, scene).value
@@ -60,7 +60,7 @@ def jump_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
 
 def tail_mass_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Mass of the tail drum over that of belt and load.
+    """Ratio of the tail pulley mass to the mass of belt and load.
 
         m_t/m_belt
 
@@ -70,18 +70,18 @@ def tail_mass_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """
     line = belt_line(spec, scene)
     value = line.tail_mass / belt_mass(line)
-    return Criterion("m_t/m_b", value, TAIL_MASS_THRESHOLD, "tail drum over belt and load", "Newton's law")
+    return Criterion("m_t/m_b", value, TAIL_MASS_THRESHOLD, "tail pulley mass / mass of belt and load", "Newton's law")
 
 
 def tail_mass_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of any tension when the tail drum is taken without mass.
+    """Change of any tension if the mass of the tail pulley is neglected.
 
         d = e a M_belt + min(5 e sqrt(1 + n), 2) a b_max g,   e = m_t/m_belt
 
-    The first term is the pull of the drum itself; the second as in `jump_bound`.
+    The first term is the inertia force of the pulley; the second is as in `jump_bound`.
 
     **Range** m_t/m_belt below 0.01; unbounded above.
-    **Error** calibrated: the largest value of the sample was 3.4 in place of 5.
+    **Error** calibrated: the maximum of the sample was 3.4 instead of 5.
     **Source** perturbation of the tail's equation of motion; coverage sample.
     """
     share = tail_mass_criterion(spec, scene).value

@@ -22,11 +22,11 @@ while its traction is worst. Calibrated: the largest value for `_TAKEUP_FACTOR` 
 
 
 def takeup_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """How far the inertia of the take-up weight changes the run-off tension.
+    """Influence of the inertia of the take-up weight on the tension of the leaving strand.
 
-        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive;   0 of a rigid take-up
+        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive;   0 for a fixed take-up
 
-    a_0 is the acceleration of the drum alone, w_1 a lower bound of the lowest frequency.
+    a_0 is the acceleration of the pulley alone, w_1 a lower bound of the lowest frequency.
 
     **Range** a gravity take-up.
     **Error** an estimate.
@@ -47,18 +47,18 @@ def _force_on_drum(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> floa
 
 
 def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Change of any tension when the take-up weight is taken without inertia.
+    """Change of any tension if the inertia of the take-up weight is neglected.
 
-        d = k T_0 a_0/(2 g),   k = 9, and 3 at a drum while its grip is worst
+        d = k T_0 a_0/(2 g),   k = 9, and 3 at a pulley at its worst traction
 
-    The weight follows half of what the belt's ends at the take-up differ by; what it pulls more or less is as its
-    acceleration, and that, in a linear belt, as the one of the drum alone, a_0. Echoes add to it; kappa below its
-    threshold, the weight is too light to hold them up. The grip is worst when the run-on is highest, and the run-off is
-    lowest at another time.
+    The weight moves by half of the displacement difference of the belt ends at the take-up. Its inertia force is
+    proportional to its acceleration, which in a linear belt is proportional to that of the pulley alone, a_0. Echoes
+    add to it; below the threshold of kappa, the weight is too light to reflect them. The traction is worst when the
+    entering tension is highest; the leaving tension is lowest at another time.
 
-    **Range** below the threshold; unbounded above, and where the belt slides on its drum before it starts.
-    **Error** calibrated: of 300 starts and stops the largest value was 6.5 in place of 9, the next one 3.5; of 240
-    others, 1.7 in place of 3.
+    **Range** below the threshold; unbounded above, and if the belt slips on its pulley before it starts.
+    **Error** calibrated: over 300 starts and stops the maximum was 6.5 instead of 9, the second largest 3.5; over 240
+    others, 1.7 instead of 3.
     **Source** take-up weight on two falls; coverage sample.
     """
     if not spec.takeup_weight:

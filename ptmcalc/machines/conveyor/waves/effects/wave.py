@@ -32,22 +32,22 @@ tension of each section; in other scenes it is that of `stiff_bounds`, or there 
 
 
 def wave_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Largest stray of the tension from the rigid body's, over the static tension of the same section.
+    """Maximum deviation of the tension from that of the rigid body, relative to the static tension of the same section.
 
         E = max over the belt of a b(s) g / S_static(s)           start
-        E = m_belt |a| / S_static,min                             stop, a the largest rigid deceleration
+        E = m_belt |a| / S_static,min                             stop, a the maximum rigid deceleration
         E = max(Z) v / S_static,min                               jam
 
-    with a b(s) the bound of a step (`laws.loop_bounds.stray`) and g what the profile leaves of it
+    a b(s) is the bound for a torque step (`laws.loop_bounds.stray`), and g the share that remains with the profile
     (`laws.start_profile.phases`).
 
-    **Range** any start; infinite where a section has no static tension.
+    **Range** any start; infinite if a section has no static tension.
     **Error** an upper bound of the ratio.
     **Source** derived in `laws.loop_bounds`; the threshold of 5 % is an engineering choice.
     """
     value = start_enclosure.stray_ratio(start_case(spec, scene)) if isinstance(scene, Start) else _shock(spec, scene)
     return Criterion(
-        "E", value, WAVE_THRESHOLD, "tension the belt's waves can add, over the static tension", "laws.loop_bounds"
+        "E", value, WAVE_THRESHOLD, "maximum tension added by belt waves / static tension", "laws.loop_bounds"
     )
 
 
@@ -62,20 +62,20 @@ def _shock(spec: Conveyor, scene: ConveyorScene) -> float:
 
 
 def wave_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """Interval of every load of the rigid body that holds all waves of the belt.
+    """Interval of every load of the rigid body that contains all waves of the belt.
 
         S_static + a r - a b g <= S <= S_static + a r + a b g,   phase by phase
 
-    A belt softened by sag is a linear belt of lower stiffness as long as the softening is the same over the swing:
-    below 5 % anywhere, or changing by less than 5 % over the swing; then the lowest frequency is taken of the softest
-    belt. A belt that sags more is unbounded.
+    A belt softened by sag is a linear belt of lower stiffness if the softening is constant over the oscillation: below
+    5 % anywhere, or with a change of less than 5 % over the oscillation. The lowest frequency is then that of the
+    softest belt. For a belt with more sag there is no bound.
 
-    What a take-up weight, a resistance that goes with the speed and the running of the belt do to it besides is
-    added from their own bounds. A stop of a short belt has bounds of its own (`stopping.stiff_bounds`).
+    The bounds of take-up weight, speed-dependent resistance and belt speed are added. A stop of a short belt has bounds
+    of its own (`stopping.stiff_bounds`).
 
-    **Range** linear undamped belt without slip, one slope, one drive, a start from the frozen running profile; any jump
-    of impedance and tail mass. Anything else is unbounded.
-    **Error** a bound; at the run-on of a gravity take-up under a torque step it is attained.
+    **Range** linear undamped belt without slip, one slope, one drive, a start with the running tensions; any jump of
+    impedance and tail mass. All other cases are unbounded.
+    **Error** a bound; it is attained at the entering strand with a gravity take-up and a torque step.
     **Source** derived in `laws.loop_bounds` (completeness of the modes, Cauchy-Schwarz, Dunkerley).
     """
     if isinstance(scene, Stopping) and (stop := stiff_bounds.short_stop(spec, scene)) is not None:

@@ -11,7 +11,7 @@ from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
 def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Least starting torque over that of steady slewing, 1.1 by default.
+    """Minimum ratio of starting torque to steady slewing torque, 1.1 by default.
 
     **Range** motors that start against friction, steady wind and slope.
     **Error** none: an engineering rule.
@@ -43,9 +43,9 @@ STALL: OneCheck = Check(
 
 
 def _at_least_steady(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """As much torque as steady slewing takes.
+    """The steady slewing torque.
 
-    **Range** curves over speed, from standstill to the speed of the crane.
+    **Range** torque-speed curves, from standstill to the slewing speed.
     **Error** none: a balance of torques.
     **Source** balance of torques about the slewing axis.
     """
@@ -80,9 +80,9 @@ def _rating(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
 
 
 def _all_of_it(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """All that the rating allows.
+    """The full rating.
 
-    **Range** ratings of the maker.
+    **Range** ratings of the manufacturer.
     **Error** none: a definition.
     **Source** IEC 60034-1; catalogues.
     """
@@ -112,11 +112,11 @@ HEATING: OneCheck = only(turns)(
 
 
 def _largest_torque(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Most the motors may be loaded with for a short time, all of them.
+    """Permissible short-time torque of all motors together.
 
-    **Range** the maker's overload limit.
+    **Range** the manufacturer's overload limit.
     **Error** none: a given value.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     most = spec.motor.largest_torque
     return Estimate.exact(math.inf if most is None else spec.motor.count * most)
@@ -138,17 +138,17 @@ OVERLOAD: OneCheck = only(lambda spec, scene: spec.motor.largest_torque is not N
         what="The motor torque in the start is at most the short-time overload torque of the motors.",
         why="A motor stalls beyond its breakdown torque.",
         formula="M_m <= M_max",
-        source="the maker's data",
+        source="the manufacturer's data",
     )
 )
 
 
 def _gearbox_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Torque that the gearbox bears on its fast shaft, in its group of the mechanism.
+    """Rated torque of the gearbox at its input shaft, for its mechanism group.
 
-    **Range** the catalogue's rating at the speed of the motor.
+    **Range** the catalogue rating at the motor speed.
     **Error** none: a given value.
-    **Source** the maker's catalogue.
+    **Source** the manufacturer's catalogue.
     """
     rated = spec.gear.rated_torque
     return Estimate.exact(math.inf if rated is None else rated)
@@ -177,9 +177,9 @@ GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)
 
 
 def _pinion_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Torque that the open pinion bears for its life.
+    """Permissible torque of the open pinion for its service life.
 
-    **Range** of the designer's own calculation of the teeth.
+    **Range** from the designer's calculation of the teeth.
     **Error** none: a given value.
     **Source** the file.
     """

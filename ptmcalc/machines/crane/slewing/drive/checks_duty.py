@@ -9,7 +9,7 @@ from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
 def _group(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """The declared group of the crane.
+    """Declared crane group.
 
     **Range** A1 to A8.
     **Error** none: a given class.

@@ -13,9 +13,9 @@ from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
 def _holding(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Least torque over that of the largest wind in service, 1 by default.
+    """Minimum ratio of the torque to that of the maximum in-service wind, 1 by default.
 
-    **Range** wind in service; out of service cranes turn freely or are locked.
+    **Range** in-service wind; out of service the crane slews freely or is locked.
     **Error** none: an engineering rule.
     **Source** handbooks of lifting machines; FEM 1.001 and EN 13001-2 for the wind itself.
     """
@@ -60,10 +60,10 @@ WIND_MOTOR: OneCheck = only(_blown)(
 
 
 def _overhauling_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Braking torque of the motors at least that with which wind and slope drive them.
+    """1: the braking torque of the motors is at least the overhauling torque of wind and slope.
 
-    **Range** motors of which the file gives a curve.
-    **Error** none: a balance.
+    **Range** motors with a curve in the file.
+    **Error** none: an equilibrium.
     **Source** balance of torques about the slewing axis.
     """
     return Estimate.exact(1.0)
@@ -84,7 +84,7 @@ OVERHAULED: OneCheck = only(_driven)(
         code="CRN120",
         title="motor braking torque reserve",
         question="Does the motor hold the crane at its speed in the maximum in-service wind?",
-        failure="wind or slope drive the motor beyond its curve",
+        failure="wind or slope overcomes the braking torque of the motor",
         scenes=SLEWING,
         loads=("overhauling_reserve",),
         sense=Sense.AT_LEAST,

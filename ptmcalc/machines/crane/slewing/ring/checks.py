@@ -7,11 +7,11 @@ from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
 def _curve(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """What the limiting load curve of the catalogue allows at this axial force.
+    """Permissible moment of the limiting load curve of the catalogue at this axial force.
 
-    **Range** straight between the points of the curve; nothing beyond the last one.
+    **Range** linear between the points of the curve; zero beyond the last point.
     **Error** none: a given curve.
-    **Source** the maker's catalogue.
+    **Source** the manufacturer's catalogue.
     """
     return Estimate.exact(1.0)
 

@@ -7,7 +7,7 @@ from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
 def _longest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Longest start, 10 s by default.
+    """Maximum starting time, 10 s by default.
 
     **Range** slewing cranes in service.
     **Error** none: an engineering rule; 4 to 10 s are usual.
@@ -39,7 +39,7 @@ SLOW: OneCheck = only(reaches)(
 
 
 def _shortest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Shortest start, 1 s by default.
+    """Minimum starting time, 1 s by default.
 
     **Range** slewing cranes in service.
     **Error** none: an engineering rule.
@@ -52,7 +52,7 @@ HARSH: OneCheck = only(turns)(
     Check(
         code="CRN103",
         title="minimum slewing start time",
-        question="Is the slewing start gentle enough?",
+        question="Is the starting time long enough for a smooth start?",
         failure="slewing start is too abrupt",
         scenes=SLEWING,
         loads=("start_time",),
@@ -70,11 +70,11 @@ HARSH: OneCheck = only(turns)(
 
 
 def _whole_rotation(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """The whole rotation.
+    """The whole slewing angle.
 
     **Range** any rotation.
     **Error** none: a definition.
-    **Source** start and stop end in one rotation.
+    **Source** start and stop are parts of one slewing motion.
     """
     return Estimate.exact(1.0)
 
@@ -101,7 +101,7 @@ SHORT: OneCheck = only(turns)(
 
 
 def _allowed_angle(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Allowed angle of a stop, of the file.
+    """Permissible stopping angle, given in the file.
 
     **Range** 15 deg in light duty.
     **Error** none: a given value.
@@ -133,7 +133,7 @@ BRAKE_ANGLE: OneCheck = only(starts)(
 
 
 def _longest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Longest stop, 10 s by default.
+    """Maximum stopping time, 10 s by default.
 
     **Range** slewing cranes in service.
     **Error** none: an engineering rule.
@@ -167,9 +167,9 @@ BRAKE_TIME: OneCheck = only(starts)(
 
 
 def _shortest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Shortest stop, 1 s by default.
+    """Minimum stopping time, 1 s by default.
 
-    **Range** slewing cranes in service; an emergency stop may be harder.
+    **Range** slewing cranes in service; an emergency stop may be shorter.
     **Error** none: an engineering rule.
     **Source** handbooks of lifting machines.
     """
@@ -180,7 +180,7 @@ HARSH_STOP: OneCheck = only(turns)(
     Check(
         code="CRN119",
         title="minimum slewing stop time",
-        question="Is the slewing stop gentle enough?",
+        question="Is the stopping time long enough for a smooth stop?",
         failure="slewing stop is too abrupt",
         scenes=SLEWING,
         loads=("brake_time",),

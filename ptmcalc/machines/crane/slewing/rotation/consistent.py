@@ -20,22 +20,24 @@ _QUADRATURE = 1e-9
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
-    """The chain of a rotation: the start time follows from the motor's torque, or its torque from the time.
+    """Slewing cycle: the starting time follows from the motor torque, or the torque from the time.
 
         t_s = (J + gamma J_1 u^2 eta) w/(M_m u eta - M_steady), or M_m u eta = (J + ...) w/t_s + M_steady
 
-    The stop is that of the brake, through the gear (`laws.slewing.geared_stop`); without a brake it is an even one over
-    the allowed angle, and so are the torques of the stop. Beside it what motor, brake, gear and slewing ring are asked.
+    The stop is that of the brake through the gear (`laws.slewing.geared_stop`). Without a brake, the stop and its
+    torques are those of a uniform stop over the permissible angle. The solver also computes the requirements of motor,
+    brake, gear and slewing ring.
 
     **Range** a rigid crane under constant torques.
-    **Error** exact for that model; rotor and losses of the gear in the stop are those of the handbook, see `geared`.
+    **Error** exact for that model; the rotor and the gear losses in the stop are treated as in the handbook, see
+    `geared`.
     **Source** change of angular momentum; course notes on the slewing crane on a fixed column; IEC 60034-1, ISO 4301-1.
     """
     return found_by(spec, scene, by_direction=False)
 
 
 def run_geared(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
-    """The chain of `consistent` with the gear's losses by the direction of the power.
+    """Slewing cycle of `consistent` with gear losses by the direction of power.
 
         M_brake = J w/t_b + M_w,max - M_fr, the brake holds the rotor;   M_worm of the stop = M_brake eta_r/u
 
@@ -47,12 +49,12 @@ def run_geared(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str],
 
 
 def run_curve(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
-    """The chain of `geared` with the start along the motor's curve instead of its mean torque.
+    """Slewing cycle of `geared` with a start along the motor curve instead of the mean torque.
 
         t_s = integral of J dw/(M(u w) u eta - M_steady),   beta_s = integral of w dt
 
     **Range** a rigid crane, motors with a curve over the speed.
-    **Error** that of the quadrature, some 1e-9.
+    **Error** that of the quadrature, about 1e-9.
     **Source** change of angular momentum along the curve; otherwise as `geared`.
     """
     return found_by(spec, scene, by_direction=True, by_curve=True)

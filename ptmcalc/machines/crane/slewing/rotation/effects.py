@@ -37,30 +37,30 @@ _BY_DIRECTION = (
 
 
 def direction_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
-    """How far the direction of the power moves the torques of the gear in the stop.
+    """Influence of the direction of power on the gear torques in the stop.
 
         (1 - eta) M_in/M_steady
 
     **Range** every rotation.
     **Error** an engineering measure.
-    **Source** theory of reduction: the efficiency goes by the direction of the power through the mesh.
+    **Source** theory of reduction: the efficiency depends on the direction of the power flow through the gear.
     """
     inertia = model.slew_inertia(spec, scene) * spec.speed / chain.allowed_stop(spec)[0]
     steady = model.steady_torque(spec, scene)
     value = (1 - spec.gear.efficiency) * (inertia / steady if steady > 0 else math.inf)
     return Criterion(
-        "(1-η) M_in/M_st", min(value, 1e9), DIRECTION_THRESHOLD, "loss of the gear times inertia over resistance",
+        "(1-η) M_in/M_st", min(value, 1e9), DIRECTION_THRESHOLD, "gear loss times inertia torque / resistance torque",
         "power balance of the mesh",
     )  # fmt: skip
 
 
 def direction_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """What the torques of the stop are when the brake holds the rotor and the losses help: the difference itself.
+    """Change of the torques of the stop if the brake acts on the rotor and the losses help: the exact difference.
 
         M_brake: less gamma J_1 u^2 eta w/t_b;   M_worm of the stop: M eta_r/u instead of M/(u eta)
 
-    **Range** torques of an even stop over the allowed angle.
-    **Error** exact: it is computed both ways.
+    **Range** torques of a uniform stop over the permissible angle.
+    **Error** exact: both cases are computed.
     **Source** power balance of the mesh; `laws.gearing`.
     """
     start, at_column, _ = start_of(spec, scene)
@@ -77,7 +77,7 @@ def direction_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Of
 
 
 def curve_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
-    """How far the motor's torque departs from its mean on the way up.
+    """Relative range of the motor torque up to full speed.
 
         (M_max - M_min)/M_mean
 
@@ -87,17 +87,19 @@ def curve_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     """
     spread = model.torque_range(spec, scene)
     value = (spread[1] - spread[0]) / spread[2] if spread is not None else 0.0
-    return Criterion("ΔM/M", value, CURVE_THRESHOLD, "spread of the starting torque over its mean", "the motor's curve")
+    return Criterion(
+        "ΔM/M", value, CURVE_THRESHOLD, "range of the starting torque / mean starting torque", "the motor's curve"
+    )
 
 
 def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """The start lies between those with the smallest and with the largest torque of the curve.
+    """The starting time is between those with the minimum and with the maximum torque of the curve.
 
         J w/(M_max - M_r) <= t_s <= J w/(M_min - M_r)
 
-    **Range** a start time of the rigid crane; anything where the smallest torque does not turn the crane, and of a run
-    in which the load swings: another start leaves it another swing, with which the stop begins.
-    **Error** a bound: the momentum given grows faster than with M_min, slower than with M_max.
+    **Range** the starting time of the rigid crane; unbounded if the minimum torque does not turn the crane, and for a
+    run with load sway: a different start leaves a different sway for the stop.
+    **Error** a bound: the angular momentum increases faster than with M_min and more slowly than with M_max.
     **Source** change of angular momentum.
     """
     spread = model.torque_range(spec, scene)
@@ -113,7 +115,7 @@ def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
 
 
 def gust_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
-    """How much of the torque that accelerates the crane a gust takes.
+    """Share of the accelerating torque that a gust consumes.
 
         M_gust/(M_start - M_steady)
 
@@ -124,17 +126,17 @@ def gust_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     free = start_of(spec, scene)[1] - model.steady_torque(spec, scene)
     gust = spec.wind.gust_torque
     value = 0.0 if gust == 0 else gust / free if free > 0 else 1e9
-    return Criterion("M_g/M_a", value, GUST_THRESHOLD, "torque of a gust over what accelerates", "balance of torques")
+    return Criterion("M_g/M_a", value, GUST_THRESHOLD, "gust torque / accelerating torque", "balance of torques")
 
 
 def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """A gust against the start holds it up at most as if it lasted.
+    """A gust delays the start at most as much as a steady wind of its strength.
 
         t_s <= J w/(M_start - M_steady - M_gust)
 
-    **Range** a start time of the rigid crane; anything where the gust stops it, and of a run in which the load swings:
-    another start leaves it another swing, with which the stop begins.
-    **Error** a bound: the gust is never stronger than that, and never helps.
+    **Range** the starting time of the rigid crane; unbounded if the gust stops the crane, and for a run with load sway:
+    a different start leaves a different sway for the stop.
+    **Error** a bound: the gust is never stronger and never helps.
     **Source** change of angular momentum.
     """
     gust = spec.wind.gust_torque

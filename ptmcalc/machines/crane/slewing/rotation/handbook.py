@@ -11,19 +11,19 @@ from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
-    """The chain of a rotation with the start time and the starting torque side by side, whether they fit or not.
+    """Slewing cycle with given starting time and given starting torque, which may contradict each other.
 
         t_b = 2 beta/w,   beta_st = beta - w t_s/2 - beta_b,   M_start = M_m u eta,   M_steady = M_fr + M_w,
         M_brake = (J + gamma J_1 u^2 eta) w/t_b + M_w,max - M_fr,   M_eq = (sum lambda_i M_i^m)^(1/m),
         M_pinion = M_eq/(u_o eta_o),   M_worm = M_eq/(u eta)
 
-    The start takes the time under `handbook`, else that of `cycle`, else what follows from the torque.
+    The starting time is that of `handbook`, otherwise that of `cycle`, otherwise that of the torque.
 
     **Range** a rigid crane; shares rounded to three digits and not renormalised unless `handbook: {shares: exact}`.
-    **Error** no bound: the rotor is taken through the gear in the stop too, and the gear's losses lead the torque of
-    the stop to the worm as if the motor drove; both are too large. Time and torque of the start may contradict each
-    other.
-    **Source** design of slewing cranes on a fixed column, course notes (3.5.2.2 to 3.5.2.13), the lost ones rebuilt.
+    **Error** no bound: in the stop, the rotor inertia and the worm torque include the gear losses as for a driving
+    motor; both are too large. Time and torque of the start may contradict each other.
+    **Source** design of slewing cranes on a fixed column, course notes (3.5.2.2 to 3.5.2.13), missing formulas
+    reconstructed.
     """
     given, torque = spec.handbook, model.motor_torque(spec, scene)
     start = model.start_time_of(given.start_time, given.start_angle, spec.speed)

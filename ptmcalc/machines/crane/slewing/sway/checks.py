@@ -13,9 +13,9 @@ from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
 def _allowed_sway(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Largest angle of the load's rope, 10 deg by default.
+    """Maximum angle of the hoist rope, 10 deg by default.
 
-    **Range** an agreement between maker and user; grabs and containers ask less.
+    **Range** an agreement between manufacturer and user; grabs and containers require less.
     **Error** none: an engineering rule.
     **Source** practice of cranes: 3 to 10 deg in service.
     """

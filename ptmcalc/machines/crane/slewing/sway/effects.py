@@ -32,12 +32,12 @@ def _hangs(spec: SlewingCrane, scene: SlewingScene) -> bool:
 
 
 def swing_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
-    """How far the load swings behind the jib.
+    """Sway angle of the load behind the jib.
 
         2 a/g,   a = R w/t of the start or of the stop, whichever is the shorter
 
     **Range** loads on a rope of known length.
-    **Error** an engineering measure: below 0.02 the load moves as one with the jib.
+    **Error** an engineering measure: below 0.02 the load moves with the jib.
     **Source** pendulum under a constant acceleration, 2 atan(a/g).
     """
     if not _hangs(spec, scene):
@@ -46,22 +46,22 @@ def swing_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None
     stop = model.stop(spec, scene) or chain.allowed_stop(spec)
     shortest = min(start_of(spec, scene)[0], stop[0])
     value = 2 * spec.load.radius * spec.speed / (shortest * spec.gravity) if shortest > 0 else math.inf
-    return Criterion("2a/g", min(value, 1e9), SWING_THRESHOLD, "angle of the load's swing [rad]", "pendulum")
+    return Criterion("2a/g", min(value, 1e9), SWING_THRESHOLD, "tangential sway angle of the load [rad]", "pendulum")
 
 
 def swing_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """What a swinging load can do to start, stop and ring, however it swings.
+    """Bounds of start, stop and slewing ring loads for any sway of the load.
 
         start:  t_s = (J' w + h)/N,   h = m rho w (rho -+ (rho^2 + J'/m)^(1/2))       (`laws.slewing.momentum_range`)
         stop:   beta_b <= beta_c + E/(M_B u + M_r),   t_b <= t_c + (J' w + h - h_end)/(M_B u eta + M_r)
         ring:   V <= m (g + w_rel^2/L + w^2 R + a R)
 
-    E is the largest energy of crane and load as the stop begins, t_c delay and rise of the brake.
+    E is the maximum energy of crane and load at the start of the stop, t_c the delay and rise time of the brake.
 
-    **Range** a start in which the motor never ceases to drive, which is proved from the largest pull of the rope; a
-    stop whose brake outweighs the wind; anything else is unbounded.
-    **Error** a bound, derived: never exceeded in that model. That of the ring is wide: more than three times what any
-    crane of the seeded sample showed of its axial force and its moment.
+    **Range** a start in which the motor drives throughout, proved by the maximum rope force; a stop with a brake torque
+    above the wind torque; otherwise unbounded.
+    **Error** a derived bound. The bound of the ring is wide: more than three times the axial force and moment of any
+    crane of the seeded sample.
     **Source** derived: Jacobi's integral of the load, energy and angular momentum of the crane.
     """
     if not _hangs(spec, scene):
@@ -70,7 +70,7 @@ def swing_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
 
 
 def centrifugal_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
-    """How far the load hangs out in steady slewing.
+    """Radial sway angle of the load in steady slewing.
 
         w^2 R/g
 
@@ -82,16 +82,16 @@ def centrifugal_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion 
         return None
     assert spec.load is not None
     value = spec.speed**2 * spec.load.radius / spec.gravity
-    return Criterion("ω²R/g", value, CENTRIFUGAL_THRESHOLD, "lean of the load outwards [rad]", "conical pendulum")
+    return Criterion("ω²R/g", value, CENTRIFUGAL_THRESHOLD, "radial sway angle of the load [rad]", "conical pendulum")
 
 
 def centrifugal_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """What the lean of the load adds to the radial force of the ring, and to its moment at the head of the jib.
+    """Radial ring force, and ring moment at the jib head, added by the radial sway of the load.
 
         dH = m w^2 L sin(theta),   tan(theta) = w^2 (R + L sin(theta))/g;   dM = dH h
 
-    **Range** steady slewing; what it does beside the swing of start and stop lies inside the bound of that.
-    **Error** exact for the steady lean.
+    **Range** steady slewing; the bound of the load sway covers start and stop.
+    **Error** exact for the steady angle.
     **Source** `laws.pendulum.slewing_lean`.
     """
     load = spec.load

@@ -14,13 +14,13 @@ from ptmcalc.machines.crane.slewing.sway.slew import hangs
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
-    """Swing of a load that hung at rest when the jib got its acceleration, and its lean in steady slewing.
+    """Tangential sway of a load at rest under a sudden jib acceleration, and its radial angle in steady slewing.
 
         theta_t = 2 atan(a/g),   a = R w/t of start or stop, the shorter;   tan(theta_r) = w^2 (R + L sin(theta_r))/g
 
-    **Range** a start or a stop of more than half a period of the load, which hangs still before.
-    **Error** no bound: a stop may add to the swing that the start has left, and the load swings out beyond its lean,
-    to several times of it.
+    **Range** a start or a stop longer than half a sway period, with the load at rest before.
+    **Error** no bound: a stop may add to the residual sway of the start, and the radial sway may reach several times
+    the steady angle.
     **Source** `laws.pendulum.largest_lean`, `laws.pendulum.slewing_lean`.
     """
     load = spec.load

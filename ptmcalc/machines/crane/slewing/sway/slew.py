@@ -26,18 +26,18 @@ _SIGNALS = {"sway_radial_max": "across", "sway_tangential_max": "along", "sway_m
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
-    """A whole rotation of the crane with the load as a spherical pendulum on its jib.
+    """A complete slewing motion with the load as a spherical pendulum on the jib.
 
         d = a_S + lambda r for the load, |r| = L;   (J + J_r k) phi\'\' = M(phi\') k - M_fr sgn - M_w + R lambda m r_t
 
-    From rest the motor turns the crane against friction, the steady wind and a gust; at its speed the crane is kept
-    there until the angle is left that the rigid crane takes to stop; then the motor is off, the largest wind drives and
-    the brake closes with its delay. A start given by its time, or a self-locking gear, imposes the motion instead.
-    Looked at until three periods of the load after the stop; what turns slowly afterwards is in the error.
+    From standstill the motor turns the crane against friction, steady wind and a gust. The crane keeps its slewing
+    speed until the remaining angle equals the stopping angle of the rigid crane. Then the motor is off, the maximum
+    wind drives, and the brake closes after its delay. A given starting time, or a self-locking gear, imposes the motion
+    instead. The simulation ends three sway periods after the stop; the error includes slow later motion.
 
-    **Range** a rigid jib, a load without size on a taut rope.
-    **Error** numerical: the difference of two runs, handed on with the state from piece to piece. Two effects can be
-    left out of it: the motor\'s curve (its mean torque instead) and the gust.
+    **Range** a rigid jib, a point load on a taut rope.
+    **Error** numerical: the difference of two runs, carried along with the state. Two effects can be neglected: the
+    motor\'s curve (its mean torque instead) and the gust.
     **Source** equations of motion (`numerics.pendulum`).
     """
     moved = rotation(spec, scene, curve="slewing_motor_curve" in carried, gust="wind_gust" in carried)

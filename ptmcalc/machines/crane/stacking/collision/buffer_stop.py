@@ -14,14 +14,14 @@ from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
 
 
 def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) -> Result:
-    """Force and stroke of the buffers by the energy of all that travels, the guided load with it.
+    """Force and stroke of the buffers from the energy of the travelling masses, guided load included.
 
         m v^2/2 + P u = E(u):   linear F = P + (P^2 + c m v^2)^(1/2),  constant u = m v^2/(2 (F - P)),  orifice
         v^2 = v_0^2 q + (P/k)(1 - q), q = exp(-2 k u/m);   phi_7 by the energy share xi of the curve
 
     **Range** every buffer of `components.buffer`.
-    **Error** exact for a rigid crane; one whose column swings forward keeps a part of its energy for later: force and
-    stroke of springs are bounds then.
+    **Error** exact for a rigid crane; an oscillating mast stores part of the energy, so that force and stroke of
+    springs are upper bounds.
     **Source** energy; EN 13001-2, ISO 8686-1 (`laws.buffer`).
     """
     given = model.travel(spec, scene).buffers
@@ -40,7 +40,7 @@ def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) 
     for name in ("buffer_force", "buffer_deceleration"):
         found[name] = Found(hit.at_least(loads[name]))
     if hit.left:
-        note = f"the buffers bottom out: {units.show(hit.left, units.SPEED)} is left at the end of their stroke"
+        note = f"the buffers bottom out: residual speed {units.show(hit.left, units.SPEED)} at the end of their stroke"
         found["buffer_stroke"] = Found(Estimate.exact(hit.stroke), note=note)
     key = MECHANISMS[model.mechanism(spec, scene)]
     return Result(

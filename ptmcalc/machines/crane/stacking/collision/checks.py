@@ -24,11 +24,11 @@ def _of_buffers(*rest: str) -> Path:
 
 
 def _stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Way the buffers can be pressed in.
+    """Buffer stroke given in the file.
 
     **Range** any buffer.
     **Error** none: a limit of the file.
-    **Source** the maker of the buffer.
+    **Source** the manufacturer of the buffer.
     """
     buffers = model.travel(spec, scene).buffers
     return given(buffers.stroke if buffers is not None else None)
@@ -55,11 +55,11 @@ STROKE: OneCheck = Check(
 
 
 def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of a buffer, or of what it stands on.
+    """Permissible force of a buffer, or of its end stop.
 
     **Range** any buffer.
     **Error** none: a limit of the file.
-    **Source** the maker of the buffer, the end stop's calculation.
+    **Source** the manufacturer of the buffer, the calculation of the end stop.
     """
     buffers = model.travel(spec, scene).buffers
     return given(buffers.rating if buffers is not None else None)
@@ -98,10 +98,10 @@ def _speed_limits(spec: Stacker, scene: StackerScene) -> dict[KeyPath, float]:
 
 
 def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest speed at which the buffers may be hit.
+    """Permissible impact speed of the buffers.
 
     **Range** any buffer.
-    **Error** none: a limit of the file or of the buffer's maker.
+    **Error** none: a limit of the file or of the buffer manufacturer.
     **Source** the file.
     """
     return given(_largest_speed(spec, scene))
@@ -129,7 +129,7 @@ SPEED: OneCheck = only(lambda spec, scene: _largest_speed(spec, scene) is not No
         why="The stiffness of rubber and cellular buffers increases with the compression speed. Load and driver are"
         " not restrained.",
         formula="share of v <= v_max",
-        source="the maker of the buffer",
+        source="the manufacturer of the buffer",
     ),
 )
 

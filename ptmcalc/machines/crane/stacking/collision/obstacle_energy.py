@@ -37,12 +37,12 @@ def striking(spec: Stacker, scene: ObstacleScene) -> Swinging:
 
 
 def energy(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: int) -> Result:
-    """Largest force of the column by all its kinetic energy, less the work of the brake.
+    """Maximum mast force from the full kinetic energy, less the work of the brake.
 
         F = -W + (W^2 + c (m_1 + m_2) v^2)^(1/2),   x = F/c;   contact: v (k m_2)^(1/2)
 
     **Range** two masses, a rigid obstacle.
-    **Error** no bound: a tip that rebounds shortens the way of the brake.
+    **Error** no bound: a tip that rebounds shortens the braking distance.
     **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; `laws.buffer.collision_force`.
     """
     one = striking(spec, scene)
@@ -50,7 +50,7 @@ def energy(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: 
 
 
 def dead(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: int) -> Result:
-    """The other reading of the notes: the tip is stopped dead, and only what is behind it bends the column.
+    """Second reading of the notes: the tip stops at once, and only the masses behind it bend the mast.
 
         F = -W + (W^2 + c m_1 v^2)^(1/2),   x = F/c
 
@@ -81,13 +81,13 @@ def _contact(spec: Stacker, one: Swinging, speed: float) -> dict[str, float]:
 
 
 def bound(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: int) -> Result:
-    """Most the column can get, whatever the contact does: all kinetic energy and all work of the drive bend it.
+    """Upper bound of the mast force for any contact: all kinetic energy and all work of the drive bend the mast.
 
         0 <= F <= P + (P^2 + c (m v^2 + 2 E_c))^(1/2),   m of all that travels
 
-    **Range** a brake or a drive of constant force; a drive that keeps to a ramp has a force without end.
-    **Error** a bound: the column bends at all, and no more than so. What it reports is the bound itself. Weights on a
-    column that hangs take a part of the energy, never bring any.
+    **Range** a brake or a drive of constant force; a drive that follows a ramp has an unlimited force.
+    **Error** a bound, reported as an interval from 0. Weights on a suspended mast absorb a part of the energy and never
+    add any.
     **Source** derived; `laws.obstacle.column_force_bound`.
     """
     assert isinstance(spec, OverheadStacker)
@@ -122,7 +122,7 @@ OBSTACLE_ENERGY: Solver[Stacker, ObstacleScene] = Solver(
 )
 OBSTACLE_TIP_STOPPED: Solver[Stacker, ObstacleScene] = Solver(
     name="obstacle_tip_stopped",
-    title="textbook collision, mast tip stopped dead",
+    title="textbook collision, mast tip stopped at once",
     fidelity=Fidelity.FORMULA,
     scenes=SCENES,
     represents=frozenset(),

@@ -22,12 +22,12 @@ _MARKS = frozenset({"combination_force"})
 
 
 def handbook(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
-    """The formula of a motor that pulls as much as the weight.
+    """Formula for a motor force equal to the weight.
 
         F = Q + v (K m_1)^(1/2)
 
-    **Range** a carriage that the rack stops dead.
-    **Error** no bound: a motor at its largest torque pulls more, a rack that gives throws the carriage back.
+    **Range** a carriage that the rack stops at once.
+    **Error** no bound: a motor at its maximum torque pulls more; an elastic rack rebounds the carriage.
     **Source** energy of the drive; lecture notes Kramatorsk 2007 name the event, not the formula.
     """
     case = catch_of(spec, scene)
@@ -37,11 +37,11 @@ def handbook(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: i
 
 
 def stopped(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
-    """The largest force of the motor, all the way, on a carriage that the rack stops dead.
+    """Maximum motor force throughout, on a carriage that the rack stops at once.
 
         F = P + ((P - Q)^2 + K m_1 v^2)^(1/2)
 
-    **Range** every caught fork; what a soft motor, a limiter and a rack that gives change is bounded by their effects.
+    **Range** every snagged fork; the effects bound the influence of motor slope, limiter and rack elasticity.
     **Error** exact for that motor and rack.
     **Source** energy of the drive, `laws.fork.caught_force`.
     """
@@ -56,22 +56,23 @@ def too_weak(spec: Stacker, scene: ForkCaught, case: Catch) -> tuple[Finding, ..
     if drive is None or drive.largest_force is None or drive.largest_force >= case.weight:
         return ()
     message = (
-        f"scene `{scene.label}`: the motor's largest force is below the weight, {units.show(case.weight, units.FORCE)}:"
-        " it is taken to pull as much"
+        f"scene `{scene.label}`: the maximum motor force is below the weight, {units.show(case.weight, units.FORCE)};"
+        " the weight is used instead"
     )
     return (Finding("NUM110", message, ("hoisting", "drive", "largest_force"), "correct the force, or the load"),)
 
 
 def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
-    """Drive, rope, carriage and rack, exact from event to event.
+    """Drive, rope, carriage and rack, exact between events.
 
         m_1 x'' = P(x') - F,   M y'' = F - Q - R,   F = max(0, Q + K (x - y)),   R = max(0, K_r y),
         P = min(P_max, Q + h (v - x')); after the limiter has tripped and reacted P = 0 and a brake holds
 
-    Looked at for six periods of its slowest vibration: the rope may go slack and the rack throw the carriage back.
+    Simulated for six periods of the slowest vibration: the rope may go slack, and the rack may rebound the carriage.
 
-    **Range** a rope and a rack without mass or damping; a brake that grips at once and sticks.
-    **Error** exact between events; bars from runs that divide time otherwise, trusted only if the energy ledger closes.
+    **Range** a rope and a rack without mass or damping; a brake that acts at once and holds.
+    **Error** exact between events; error bars from runs with other time steps, accepted only if the energy balance
+    closes.
     **Source** `numerics.train`; the equations of theory and case C20.
     """
     whole = catch_of(spec, scene)
@@ -80,7 +81,10 @@ def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -
     found = dict(one.found)
     tripped = one.played.first(MOTOR, "started")
     if tripped < one.played.record.time:
-        rope, note = found["rope_force_caught"], f"the limiter trips {units.show(tripped, units.TIME)} after the catch"
+        rope, note = (
+            found["rope_force_caught"],
+            f"the limiter trips {units.show(tripped, units.TIME)} after the fork snags",
+        )
         found["rope_force_caught"] = Found(rope.estimate, rope.at, note)
     said = too_weak(spec, scene, whole)
     return one.result(with_derived(spec, scene, with_factor(found | reserve(spec, whole), case)), said)
@@ -107,12 +111,12 @@ def with_factor(loads: Mapping[str, Found], case: Catch) -> dict[str, Found]:
 def not_too_stiff(spec: Stacker, scene: ForkCaught) -> Criterion:
     """A rack that is not much stiffer, beside what it stops, than the rope.
 
-    **Range** every caught fork.
+    **Range** every snagged fork.
     **Error** a limit of what a run without damping says of a machine.
     **Source** the fast vibration of the carriage on the rack: its losses decide then, which the file does not have.
     """
     value = spread(catch_of(spec, scene).train())
-    return Criterion("w_2/w_1", value, MOST_SPREAD, "fastest over slowest vibration", "limit of the run")
+    return Criterion("w_2/w_1", value, MOST_SPREAD, "highest / lowest natural frequency", "limit of the run")
 
 
 CAUGHT_HANDBOOK: Solver[Stacker, ForkCaught] = Solver(

@@ -22,7 +22,7 @@ PUSHES: frozenset[type[Scene]] = frozenset({ForkPush})
 
 
 def _factor_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the ropes over the weight with which the hoist has been calculated.
+    """Design factor of the hoist: permissible ratio of rope force to weight.
 
     **Range** any hoist.
     **Error** none: a limit of the file.
@@ -46,10 +46,10 @@ def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 
 def _of_rated(spec: Stacker, scene: StackerScene, loads: Mapping[str, Estimate]) -> Estimate:
-    """Force of the ropes over the weight with the rated load, whatever is on the fork: the hoist is built for that.
+    """Ratio of the rope force to the weight of carriage and rated load, for any load on the fork.
 
     **Range** any load on the fork; the weight is that of carriage and rated load.
-    **Error** that of the force, over the weight.
+    **Error** that of the force, relative to the weight.
     **Source** lecture notes Kramatorsk 2007, tables 11.1 and 11.2.
     """
     one = loads["rope_force_caught"]
@@ -83,11 +83,11 @@ FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is no
 
 
 def _rope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Breaking force of all falls together.
+    """Breaking force of all rope falls together.
 
-    **Range** falls that share evenly.
+    **Range** falls with equal shares of the load.
     **Error** none: a limit of the file.
-    **Source** the maker of the rope.
+    **Source** the manufacturer of the rope.
     """
     rope = spec.hoisting.rope
     return given(None if rope.breaking_force is None else rope.falls * rope.breaking_force)
@@ -110,16 +110,16 @@ ROPE: OneCheck = Check(
     why="A rope that breaks drops the carriage into its safety gear. A rope loaded close to its breaking force is"
     " damaged without visible signs.",
     formula="F <= n F_b",
-    source="equilibrium of the carriage; the maker of the rope",
+    source="equilibrium of the carriage; the manufacturer of the rope",
 )
 
 
 def _rack_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the lifting fork on the rack.
+    """Permissible uplift of the fork on the rack.
 
     **Range** any rack.
     **Error** none: a limit of the file.
-    **Source** the maker of the rack.
+    **Source** the manufacturer of the rack.
     """
     return given(spec.rack.rating_vertical)
 
@@ -148,11 +148,11 @@ RACK: OneCheck = only(
 
 
 def _push_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the pushing fork on the rack.
+    """Permissible thrust of the fork on the rack.
 
     **Range** any rack.
     **Error** none: a limit of the file.
-    **Source** the maker of the rack.
+    **Source** the manufacturer of the rack.
     """
     return given(spec.rack.rating_push)
 
@@ -177,11 +177,11 @@ PUSH: OneCheck = Check(
 
 
 def _telescope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the telescope.
+    """Permissible thrust of the telescopic fork.
 
     **Range** any fork.
     **Error** none: a limit of the file.
-    **Source** the maker of the fork.
+    **Source** the manufacturer of the fork.
     """
     return given(spec.fork.rating if spec.fork is not None else None)
 
@@ -199,7 +199,7 @@ def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fork.rating is not None)(
     Check(
         code="CRN288",
-        title="fork thrust on the telescopic fork",
+        title="telescopic fork thrust",
         question="Is the fork thrust within the rating of the telescopic fork?",
         failure="fork thrust overloads the telescopic fork",
         scenes=PUSHES,
@@ -214,13 +214,13 @@ TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fo
         why="A slip clutch with too high a setting gives no protection. Chains and racks of telescopic forks break"
         " first.",
         formula="F <= F_max",
-        source="energy of the fork's drive; the maker of the fork",
+        source="energy of the fork drive; the manufacturer of the fork",
     ),
 )
 
 
 def _limiter_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """The limiter trips above what normal hoisting asks.
+    """1: the limiter trips above the force of normal hoisting.
 
     **Range** any limiter.
     **Error** none: statics.

@@ -48,11 +48,11 @@ def _anything(loads: Loads) -> Offsets:
 
 
 def catching_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
-    """What drive and motor can add to the weight on the rope.
+    """Force that drive inertia and motor can add to the weight on the rope, relative to the weight.
 
         max( v (K m_1)^(1/2), P - Q )/Q
 
-    **Range** every caught fork; it is in every run.
+    **Range** every snagged fork; every run includes this effect.
     **Error** an engineering measure.
     **Source** `laws.fork.catching_number`.
     """
@@ -64,11 +64,12 @@ def catching_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
 
 
 def catching_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
-    """Without the catch the rope bears the weight; with it between that and the energy of drive, carriage and motor.
+    """Without snagging the rope carries the weight; with snagging, the force is between the weight and the bound from
+    the energy of drive, carriage and motor.
 
         Q <= F <= P + ((P - Q)^2 (1 + K/K_r) + K (m_1 + M) v^2)^(1/2)
 
-    **Range** every load of a caught fork.
+    **Range** every load of a snagged fork.
     **Error** exact at the lower end, a bound at the upper one.
     **Source** `laws.fork.caught_bound`.
     """
@@ -93,7 +94,7 @@ def _between(spec: Stacker, scene: ForkCaught, loads: Loads, least: float, most:
 
 
 def rack_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
-    """Stiffness of the rope over that of the rack.
+    """Ratio of the rope stiffness to the rack stiffness.
 
         K/K_r
 
@@ -102,16 +103,18 @@ def rack_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
     **Source** springs in series; the threshold of 10 % changes the frequency by 5 %.
     """
     case = catch_of(spec, scene)
-    return Criterion("K/K_r", case.rope / case.rack, RACK_THRESHOLD, "rope stiffness over the rack's", "series springs")
+    return Criterion(
+        "K/K_r", case.rope / case.rack, RACK_THRESHOLD, "rope stiffness / rack stiffness", "series springs"
+    )
 
 
 def rack_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
-    """What a rack that gives, and throws the carriage back, can make of the rope's force; nothing for a rigid one.
+    """Bounds of the rope force with an elastic rack that rebounds the carriage; zero change for a rigid rack.
 
         Q <= F <= P + ((P - Q)^2 (1 + K/K_r) + K (m_1 + M) v^2)^(1/2)
 
-    **Range** every load of a caught fork.
-    **Error** a bound: the carriage brings its own energy, and the motor works along the way of the rack.
+    **Range** every load of a snagged fork.
+    **Error** a bound: it includes the energy of the carriage and the motor work along the rack deflection.
     **Source** `laws.fork.caught_bound`: energy.
     """
     case = catch_of(spec, scene)
@@ -119,7 +122,7 @@ def rack_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
 
 
 def slope_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
-    """How far the motor's slope damps the shock.
+    """Damping of the shock by the slope of the motor curve.
 
         z = h/(2 (K m_1)^(1/2))
 
@@ -133,15 +136,15 @@ def slope_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
 
 
 def slope_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
-    """What a motor that pulls less the faster it runs can take off the force of one at its largest; nothing without.
+    """Possible reduction of the rope force by the slope of the motor curve; zero for a constant motor force.
 
         Q + v (K m_1)^(1/2) <= F,   as P(x') >= Q while the drive is slower than v
 
-    Behind a rack that gives, the peak may come at any bounce: it lies between the weight and the bound of that rack.
+    With an elastic rack, the peak may occur at any rebound: it is between the weight and the bound of the rack.
 
-    **Range** every load of a caught fork.
-    **Error** a bound, reached as the slope falls to 0 under a large standstill force.
-    **Source** energy of the drive with the least and the largest work of the motor; `laws.fork.caught_bound`.
+    **Range** every load of a snagged fork.
+    **Error** a bound, reached if the slope approaches 0 at a large standstill force.
+    **Source** energy of the drive with the minimum and the maximum work of the motor; `laws.fork.caught_bound`.
     """
     case = catch_of(spec, scene)
     if not case.slope:
@@ -150,25 +153,25 @@ def slope_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
 
 
 def limiter_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
-    """Most that the rope can get without the limiter, over the force at which it trips; 0 without one.
+    """Ratio of the maximum rope force without the limiter to its trip force; 0 without a limiter.
 
         F_max/F_l
 
-    **Range** every caught fork.
+    **Range** every snagged fork.
     **Error** an upper bound: below 1 it does not trip.
     **Source** `laws.fork.caught_bound`.
     """
     case = catch_of(spec, scene)
     value = case.most / case.limit.force if case.limit is not None else 0.0
-    return Criterion("F/F_l", value, LIMITER_THRESHOLD, "rope force over that of the limiter", "laws.fork")
+    return Criterion("F/F_l", value, LIMITER_THRESHOLD, "rope force / trip force of the limiter", "laws.fork")
 
 
 def limiter_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
-    """Nothing where no limiter trips; else nothing is known without it.
+    """Zero if no limiter trips; otherwise unbounded.
 
-    **Range** every load of a caught fork.
-    **Error** exact where the bound of the force is below the limiter's; else unbounded: a brake that catches a drive
-    that runs back has a peak of its own.
+    **Range** every load of a snagged fork.
+    **Error** exact if the bound of the force is below the trip force; otherwise unbounded: a brake that stops a
+    reversing drive causes a peak of its own.
     **Source** `laws.fork.caught_bound`.
     """
     case = catch_of(spec, scene)
@@ -176,52 +179,53 @@ def limiter_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
 
 
 def pushing_criterion(spec: Stacker, scene: ForkPush) -> Criterion:
-    """What the moving fork adds to the force of its drive.
+    """Force added by the moving fork, relative to its drive force.
 
         v (K_r m)^(1/2)/P
 
-    **Range** every pushing fork; it is in every run.
+    **Range** every fork thrust; every run includes this effect.
     **Error** an engineering measure.
     **Source** `laws.fork.clutch_push`.
     """
     case = push_of(spec, scene)
     value = case.speed * math.sqrt(case.rack * case.mass) / case.force
-    return Criterion("Π_p", value, PUSHING_THRESHOLD, "shock of the fork over the force of its drive", "laws.fork")
+    return Criterion("Π_p", value, PUSHING_THRESHOLD, "impact force of the fork / drive force", "laws.fork")
 
 
 def pushing_bound(spec: Stacker, scene: ForkPush, loads: Loads) -> Offsets:
-    """Nothing is known of a push without it.
+    """No bound: the fork thrust cannot be computed without this effect.
 
-    **Range** every load of a pushing fork.
+    **Range** every load of a fork thrust.
     **Error** unbounded.
-    **Source** there is no run that leaves it out.
+    **Source** no run neglects this effect.
     """
     return _anything(loads)
 
 
 def yield_criterion(spec: Stacker, scene: ForkPush) -> Criterion:
-    """Stiffness of the rack over that of the column at the fork.
+    """Ratio of the rack stiffness to the mast stiffness at the fork.
 
         K_r/c
 
-    **Range** every pushing fork.
+    **Range** every fork thrust.
     **Error** an engineering measure.
     **Source** springs in series.
     """
     case = push_of(spec, scene)
-    meaning = "stiffness of the rack over that of the column"
+    meaning = "rack stiffness / mast stiffness"
     return Criterion("K_r/c", case.rack / case.support, YIELDING_THRESHOLD, meaning, "springs in series")
 
 
 def yield_bound(spec: Stacker, scene: ForkPush, loads: Loads) -> Offsets:
-    """What a column that gives way can change; nothing for a rigid one.
+    """Bounds of the fork thrust with a flexible mast; zero change for a rigid mast.
 
         F_low <= F <= P + (P^2 (1 + K_r/c) + K_r m v^2)^(1/2)
 
-    F_low is what the carriage leaves of it at most, of a clutch P: the drive does not stop before the rack brings it.
+    F_low is the lower bound with a moving carriage, with a slip clutch P: the drive does not stop before the rack
+    reaches this force.
 
-    **Range** the force of a pushing fork, with motor or clutch.
-    **Error** a bound; both ends meet on a rigid column.
+    **Range** the fork thrust, with motor or clutch.
+    **Error** a bound; both ends coincide for a rigid mast.
     **Source** `laws.fork.push_least`, `push_bound`.
     """
     case, force = push_of(spec, scene), loads.get("fork_push_force")

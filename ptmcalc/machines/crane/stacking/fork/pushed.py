@@ -18,26 +18,26 @@ _GIVES = frozenset({"fork_push_force", "combination_force", "column_stress", "st
 
 
 def handbook(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> Result:
-    """The formula with rack and column as springs one behind the other.
+    """Formula with rack and mast as springs in series.
 
         F = P + (P^2 + K m v^2)^(1/2),   1/K = 1/K_r + 1/c;   with a slip clutch P_c + v (K m)^(1/2)
 
     **Range** as `laws.fork.push_force`.
-    **Error** no bound: the mass of the carriage keeps the column from giving way at once.
-    **Source** energy of the fork's drive.
+    **Error** no bound: the carriage mass delays the deflection of the mast.
+    **Source** energy of the fork drive.
     """
     case = push_of(spec, scene)
     return Result({"fork_push_force": Found(Estimate.unknown(case.formula(case.series)))}, work=1)
 
 
 def rigid(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> Result:
-    """The fork against the rack, on a column that does not give.
+    """Fork thrust against the rack with a rigid mast.
 
         F = P + (P^2 + K_r m v^2)^(1/2);   with a slip clutch P_c + v (K_r m)^(1/2)
 
-    **Range** every push; what the column does is bounded by its effect.
-    **Error** exact for a rigid column.
-    **Source** energy of the fork's drive, `laws.fork`.
+    **Range** every fork thrust; the effect `column_yield` bounds the influence of the mast.
+    **Error** exact for a rigid mast.
+    **Source** energy of the fork drive, `laws.fork`.
     """
     case = push_of(spec, scene)
     found = {"fork_push_force": Found(Estimate.exact(case.formula(case.rack)))}
@@ -45,14 +45,16 @@ def rigid(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -
 
 
 def run(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> Result:
-    """Drive, rack and carriage on its column, exact from event to event.
+    """Drive, rack and carriage on its mast, exact between events.
 
         m s'' = P - F,   M w'' = F - c w,   F = max(0, K_r (s - w)),   P of the motor, or of the clutch while it slips
 
-    s is the way of the fork out of the carriage, w that of the carriage back. Six periods of its slowest vibration.
+    s is the travel of the fork out of the carriage, w the backward displacement of the carriage. Simulated for six
+    periods of the slowest vibration.
 
-    **Range** the mass of fork and drive reduced to the way out of the carriage; the column without mass of its own.
-    **Error** exact between events; bars from runs that divide time otherwise, trusted only if the energy ledger closes.
+    **Range** the mass of fork and drive reduced to the fork travel; a massless mast.
+    **Error** exact between events; error bars from runs with other time steps, accepted only if the energy balance
+    closes.
     **Source** `numerics.train`.
     """
     if YIELDING not in carried:
@@ -67,13 +69,13 @@ def run(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> 
 def not_too_stiff(spec: Stacker, scene: ForkPush) -> Criterion:
     """A column that is not much stiffer, beside what it carries, than the rack beside the fork, nor much softer.
 
-    **Range** every pushing fork.
+    **Range** every fork thrust.
     **Error** a limit of what a run without damping says of a machine.
     **Source** the losses of the fast vibration decide then, which the file does not have.
     """
     case = push_of(spec, scene)
     value = spread(case.train()) if math.isfinite(case.support) else 1.0
-    return Criterion("w_2/w_1", value, MOST_SPREAD, "fastest over slowest vibration", "limit of the run")
+    return Criterion("w_2/w_1", value, MOST_SPREAD, "highest / lowest natural frequency", "limit of the run")
 
 
 PUSH_HANDBOOK: Solver[Stacker, ForkPush] = Solver(

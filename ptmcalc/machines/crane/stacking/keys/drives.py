@@ -41,40 +41,40 @@ Group = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
 
 
 class Travel(Fragment):
-    """A mechanism that travels: how fast, and what starts and stops it.
+    """A travel mechanism: speed, starting and braking.
 
-    It keeps to a ramp of speed (`acceleration`, `deceleration`), or a force acts at its wheel treads
+    It follows a speed ramp (`acceleration`, `deceleration`), or a force acts at its wheel treads
     (`driving_force`, `braking_force`, or those of a `drive`).
     """
 
     speed: PositiveSpeed
-    """at full"""
+    """full speed"""
     acceleration: Annotated[PositiveAcceleration | None, OneOf("ramps, forces or a `drive`")] = None
-    """of a start along a ramp of speed"""
+    """of a start on a speed ramp"""
     deceleration: Annotated[PositiveAcceleration | None, OneOf("ramps, forces or a `drive`")] = None
-    """of a stop along a ramp of speed"""
-    ramp_rise: Annotated[Time, Absent("an acceleration at once swings the column farthest")] = 0.0
-    """in which the acceleration of a ramp rises and falls linearly"""
+    """of a stop on a speed ramp"""
+    ramp_rise: Annotated[Time, Absent("a sudden acceleration causes the largest mast deflection")] = 0.0
+    """linear rise and fall time of the ramp acceleration"""
     driving_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
     """at the wheel treads, of a start by force"""
-    driving_rise: Annotated[Time, Absent("a force at once swings the column farthest")] = 0.0
-    """in which it rises linearly"""
+    driving_rise: Annotated[Time, Absent("a sudden force causes the largest mast deflection")] = 0.0
+    """linear rise time"""
     braking_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
     """at the wheel treads, of a stop by force, without the resistance"""
     braking_delay: Annotated[Time | None, Assumed()] = None
-    """from switching off until it begins"""
+    """from switch-off to the start of the braking force"""
     braking_rise: Annotated[Time, Absent("the interval of the assumed `braking_delay` includes the rise")] = 0.0
-    """in which it rises linearly"""
+    """linear rise time"""
     resistance: Annotated[Force | None, Assumed()] = None
     """to travel, at the wheel treads"""
     drive: TravelDrive | None = None
     """motors, gear and brakes, instead of forces and ramps"""
-    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the wheel treads")] = None
+    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps at the wheel treads")] = None
     """of the driven wheels; with a `drive`"""
     starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
-    """what the mechanism does all day; needed to check its starts"""
+    """starts per hour of the mechanism; needed to check them"""
     permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
-    """what motor and brake allow; that of the drive's motor when left out"""
+    """permitted by motor and brake; default: that of the motor of the drive"""
     buffers: Buffer | None = None
     """at the ends of its path; needed for a `buffer`"""
 
@@ -89,12 +89,16 @@ class Travel(Fragment):
                     yield Conflict((key,), "the `drive` defines start and stop", f"delete `{key}`, or the drive")
             yield from together(given, "drive", "wheel_diameter", "its torques act at the wheel treads")
         elif not any(key in given for key in ("deceleration", "braking_force")):
-            yield given.missing("braking_force", "nothing stops it: give `deceleration`, `braking_force` or a `drive`")
+            yield given.missing(
+                "braking_force", "the mechanism has no brake: give `deceleration`, `braking_force` or a `drive`"
+            )
         for key, force in (("driving_rise", "driving_force"), ("braking_rise", "braking_force")):
             if given.number(key) and force not in given:
-                yield Conflict((key,), f"there is no `{force}` that rises", f"delete `{key}`")
+                yield Conflict((key,), f"there is no `{force}` with a rise time", f"delete `{key}`")
         if given.number("ramp_rise") and not ({"acceleration", "deceleration"} & set(given.raw)):
-            yield Conflict(("ramp_rise",), "there is no ramp whose acceleration rises", "delete `ramp_rise`")
+            yield Conflict(
+                ("ramp_rise",), "there is no ramp with a rise time of the acceleration", "delete `ramp_rise`"
+            )
 
     @property
     def starts(self) -> bool:
@@ -103,39 +107,39 @@ class Travel(Fragment):
 
 
 class Rotation(Fragment):
-    """The mechanism that turns the column about its own axis."""
+    """The mechanism that rotates the mast about its own axis."""
 
     speed: PositiveAngularSpeed
-    """at full"""
+    """full speed"""
     inertia: PositiveInertia
-    """of column, carriage, cab and load about the axis, the rotor reduced to it included"""
+    """of mast, carriage, cab and load about the axis, reduced rotor included"""
     driving_torque: PositiveTorque
-    """at the column"""
+    """at the mast"""
     braking_torque: PositiveTorque
-    """at the column"""
+    """at the mast"""
     resistance: Annotated[Torque | None, Assumed()] = None
-    """of its bearings, at the column"""
+    """of its bearings, at the mast"""
     starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
-    """what the mechanism does all day; needed to check its starts"""
+    """starts per hour of the mechanism; needed to check them"""
     permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
-    """what motor and brake allow; needed to check the starts"""
+    """permitted by motor and brake; needed to check the starts"""
 
 
 class HoistRope(Fragment):
-    """The ropes the carriage hangs on."""
+    """The hoist ropes of the carriage."""
 
     falls: Falls
-    """parts of rope the carriage hangs on, all together"""
+    """total number of rope falls at the carriage"""
     ropes: Literal[1, 2] = 1
-    """parts of rope that run onto the drum"""
+    """number of ropes on the drum"""
     sheave_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """of a sheave; 0.98 is assumed when neither it nor `efficiency` is given"""
     efficiency: Annotated[Efficiency | None, OneOf("sheave_efficiency")] = None
-    """of the whole tackle while it hauls, instead of that of a sheave"""
+    """of the whole reeving while hoisting, instead of that of a sheave"""
     diameter: Annotated[PositiveLength | None, Limit()] = None
     """nominal"""
     breaking_force: Annotated[PositiveForce | None, Checked()] = None
-    """of one part of rope; needed to check its safety"""
+    """of one rope; needed to check its safety factor"""
     stiffness: Annotated[
         PositiveStiffness | None, OneOf("`stiffness`, or `area` and `length`; without both no `fork_caught`")
     ] = None
@@ -143,7 +147,7 @@ class HoistRope(Fragment):
     area: Annotated[
         PositiveArea | None, OneOf("`stiffness`, or `area` and `length`; without both no `fork_caught`")
     ] = None
-    """metallic, of one part of rope"""
+    """metallic area of one rope"""
     modulus: Annotated[PositiveStress | None, Assumed()] = None
     """of the rope on its metallic area, not of its wire; 105 GPa when left out"""
     length: Annotated[
@@ -161,30 +165,30 @@ class HoistRope(Fragment):
         yield from together(given, "length", "area", "the stiffness of the rope depends on both")
         falls, ropes = given.raw.get("falls"), given.raw.get("ropes", 1)
         if isinstance(falls, int) and ropes == 2 and falls % 2:
-            reason = f"{falls} falls do not share out on two ropes"
+            reason = f"{falls} falls cannot be divided between two ropes"
             yield Conflict(("falls",), reason, f"write `falls: {falls + 1}`, or `ropes: 1`")
 
 
 class Limiter(Fragment):
-    """What switches the hoist off at too large a force."""
+    """The load limiter, which switches off the hoist."""
 
     force: PositiveForce
-    """at the carriage, at which it trips"""
+    """trip force, at the carriage"""
     reaction: Time
-    """from then until the motor is off and the brake acts"""
+    """from tripping until the motor is off and the brake acts"""
     braking_force: Annotated[
-        PositiveForce | None, Absent("a brake that holds the carriage brakes with its weight at least")
+        PositiveForce | None, Absent("a brake that holds the carriage has at least the force of its weight")
     ] = None
-    """of the brake, at the carriage; that of the motor in even hoisting when left out"""
+    """of the brake, at the carriage; default: that of the motor in steady hoisting"""
 
 
 class HoistDrive(Fragment):
-    """Motor, gear and drum of the hoist, as the carriage feels them."""
+    """Motor, gear and drum of the hoist, reduced to the carriage."""
 
     reduced_mass: Annotated[PositiveMass | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")] = (
         None
     )
-    """of all that turns, at the carriage, while the motor drives; or give `inertia`, `ratio` and `drum_diameter`"""
+    """of all rotating parts, at the carriage, while the motor drives; or give `inertia`, `ratio` and `drum_diameter`"""
     inertia: Annotated[Inertia | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")] = None
     """of rotor, coupling and brake, on the motor shaft"""
     ratio: Annotated[PositiveRatio | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")] = None
@@ -196,9 +200,9 @@ class HoistDrive(Fragment):
     ] = None
     """to the middle of the rope"""
     largest_force: Annotated[PositiveForce | None, Assumed()] = None
-    """of the motor that goes on pulling, at the carriage; the weight when left out"""
-    slope: Annotated[Slope | None, Absent("a motor whose force does not fall with its speed pulls hardest")] = None
-    """by which the motor's force falls with the speed, at the carriage; a constant force when left out"""
+    """maximum motor force, at the carriage; default: the weight"""
+    slope: Annotated[Slope | None, Absent("a constant motor force results in the largest rope force")] = None
+    """decrease of the motor force per speed, at the carriage; a constant force when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -216,24 +220,24 @@ class HoistDrive(Fragment):
 
 
 class Hoisting(Fragment):
-    """The hoist that lifts the carriage."""
+    """The hoist of the carriage."""
 
     speed: PositiveSpeed
     """of the carriage"""
     acceleration: PositiveAcceleration
-    """of the carriage, starting up and stopping down"""
+    """of the carriage, at a start upwards or a stop while lowering"""
     rope: HoistRope
-    """on which it hangs"""
+    """hoist ropes"""
     drive: HoistDrive | None = None
-    """what turns; needed for a `fork_caught`"""
+    """hoist drive; needed for a `fork_caught`"""
     limiter: Limiter | None = None
-    """what switches it off at too large a force"""
+    """load limiter"""
     group: Group | None = None
-    """of the mechanism (ISO 4301-1); with it the rope has to keep the safety of ISO 4308-1"""
+    """mechanism group (ISO 4301-1); it determines the rope safety factor by ISO 4308-1"""
     starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
-    """what the hoist does all day; needed to check its starts"""
+    """starts per hour of the hoist; needed to check them"""
     permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
-    """what motor and brake allow; needed to check the starts"""
+    """permitted by motor and brake; needed to check the starts"""
 
     @property
     def catches(self) -> bool:

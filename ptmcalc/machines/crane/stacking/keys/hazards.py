@@ -29,18 +29,18 @@ _TRIP_RATIO = Assumed(
     1.4, 1.2, 1.5, "overspeed governors trip at 1.2 to 1.5 times the hoisting speed (EN 528, EN 81-20)"
 )
 _REACTION = Assumed(0.05, 0.02, 0.15, "linkages of safety gears engage within 20 to 150 ms of tripping")
-_GEAR_ARM = Assumed(0.0, -0.2, 0.2, "gears engage a guide within 0.2 m of the axis of the column")
+_GEAR_ARM = Assumed(0.0, -0.2, 0.2, "safety gears act on a guide within 0.2 m of the mast axis")
 
 
 class Obstacle(Fragment):
-    """What the free end of the column runs into."""
+    """The obstacle in the path of the mast tip."""
 
     contact: Literal["elastic", "plastic"] = "elastic"
-    """whether the far end springs back, or stays where it hits"""
+    """whether the tip rebounds, or stays in contact"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("`contact: plastic`")] = None
-    """of the place that is hit; of an `elastic` contact"""
-    restitution: Annotated[Fraction, Absent("an impact without losses bends the mast farthest")] = 1.0
-    """speed after an `elastic` contact over that before"""
+    """contact stiffness; of an `elastic` contact"""
+    restitution: Annotated[Fraction, Absent("an impact without losses causes the largest mast deflection")] = 1.0
+    """speed after an `elastic` contact / speed before"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -57,42 +57,42 @@ class Fork(Fragment):
     """The telescopic fork and its drive."""
 
     mass: PositiveMass
-    """of fork and drive, reduced to the fork; with a slip clutch weaker than the motor only the parts behind it"""
+    """of fork and drive, reduced to the fork; with a slip clutch weaker than the motor only the driven parts"""
     speed: PositiveSpeed
     """of the fork"""
     motor_force: PositiveForce
-    """largest of its drive that goes on pushing, at the fork"""
+    """maximum force of its drive, at the fork"""
     clutch_force: Annotated[
-        PositiveForce | None, Absent("without a slip clutch the whole force of the motor and the whole mass push")
+        PositiveForce | None, Absent("without a slip clutch the full motor force and the full mass act")
     ] = None
-    """at which its slip clutch slips, at the fork; one as strong as the motor is not reckoned with: the whole mass
-    bounds the force then"""
+    """slip force of its clutch, at the fork; a clutch as strong as the motor is neglected: the full mass
+    then bounds the force"""
     torsion_stiffness: Annotated[
         Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None,
-        Absent("a column that does not twist stops the fork hardest"),
+        Absent("a mast without torsion results in the largest fork thrust"),
     ] = None
-    """of the column against twisting, where the carriage is; rigid when left out"""
-    arm: Annotated[SignedSpan, Absent("a column that does not twist stops the fork hardest")] = 0.0
-    """of the pushing fork from the axis of the column, along the aisle"""
+    """torsional stiffness of the mast at the carriage; rigid when left out"""
+    arm: Annotated[SignedSpan, Absent("a mast without torsion results in the largest fork thrust")] = 0.0
+    """lever arm of the extending fork about the mast axis, along the aisle"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of the telescope; needed to check it"""
+    """permissible thrust of the telescopic fork; needed to check it"""
 
 
 class Rack(Fragment):
     """The rack at the fork."""
 
     stiffness_push: Annotated[PositiveStiffness | None, OneOf("no `fork`: with one it is required")] = None
-    """against the fork that pushes; with a `fork` it is needed"""
-    stiffness_vertical: Annotated[PositiveStiffness | None, Absent("a rigid rack takes the largest force")] = None
-    """against the fork that lifts; rigid when left out"""
+    """stiffness against the extending fork; needed with a `fork`"""
+    stiffness_vertical: Annotated[PositiveStiffness | None, Absent("a rigid rack results in the largest force")] = None
+    """stiffness against the lifting fork; rigid when left out"""
     rating_push: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of the pushing fork on the rack; needed to check it"""
+    """permissible thrust of the fork on the rack; needed to check it"""
     rating_vertical: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of the lifting fork on the rack; needed to check it"""
+    """permissible uplift of the fork on the rack; needed to check it"""
 
 
 class Waviness(Fragment):
-    """Even waves of the rail."""
+    """Uniform waves of the rail."""
 
     height: PositiveLength
     """from trough to crest"""
@@ -103,19 +103,19 @@ class Waviness(Fragment):
 class Rail(Fragment):
     """The rail a rack stacker runs on."""
 
-    step: Annotated[Length, Absent("no step is there")] = 0.0
-    """height of the largest step"""
-    gap: Annotated[Length, Absent("no gap is there")] = 0.0
-    """width of the largest gap"""
+    step: Annotated[Length, Absent("no step given")] = 0.0
+    """height of the maximum step"""
+    gap: Annotated[Length, Absent("no gap given")] = 0.0
+    """width of the maximum gap"""
     waviness: Waviness | None = None
-    """even waves"""
+    """uniform rail waves"""
     frequency: Annotated[Annotated[float, Measure(units.FREQUENCY, above=0)] | None, Assumed()] = None
-    """of the machine that swings vertically on its wheels; 10 Hz is assumed for a `rail`"""
+    """vertical natural frequency of the machine on its wheels; 10 Hz is assumed for a `rail`"""
     damping: Annotated[
         Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.5)],
-        Absent("without damping the machine swings farthest"),
+        Absent("without damping, the oscillation is largest"),
     ] = 0.0
-    """damping ratio of that swing; none when left out, which is on the safe side"""
+    """damping ratio of that oscillation; 0 when left out, on the safe side"""
 
     @property
     def uneven(self) -> bool:
@@ -124,23 +124,23 @@ class Rail(Fragment):
 
 
 class SafetyGear(Fragment):
-    """What catches the carriage when its ropes fail."""
+    """The safety gear, which stops the carriage after rope failure."""
 
     type: Literal["progressive", "instantaneous"]
-    """`progressive`: it brakes with a constant force; `instantaneous`: it locks, and only its mounting and the column
+    """`progressive`: it brakes with a constant force; `instantaneous`: it locks, and only its mounting and the mast
     deflect"""
     force: Annotated[PositiveForce | None, OneOf("stiffness")] = None
     """braking force of a `progressive` gear"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("force")] = None
-    """of an `instantaneous` gear with its mounting and the column"""
+    """of an `instantaneous` gear with its mounting and the mast"""
     stroke: PositiveLength = Field(examples=["300 mm"])
     """braking distance of a `progressive` gear, maximum deflection of an `instantaneous` one"""
     trip_ratio: Annotated[TripRatio, _TRIP_RATIO] = 1.4
-    """speed at which it trips over the hoisting speed; 1.2 to 1.5"""
+    """trip speed / hoisting speed; 1.2 to 1.5"""
     reaction_time: Annotated[Time, _REACTION] = 0.05
-    """from tripping until it engages"""
+    """from tripping to engagement"""
     arm: Annotated[SignedSpan, _GEAR_ARM] = 0.0
-    """of the gear's force from the axis of the column, along the travel of bridge or base"""
+    """lever arm of the gear force about the mast axis, along the travel of bridge or base"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -154,14 +154,14 @@ class SafetyGear(Fragment):
 
 
 class Settling(Fragment):
-    """How still the column must be before the fork may go out."""
+    """Positioning tolerance of the mast before the fork extends."""
 
     window: Annotated[PositiveLength | None, Limit(), Also("positioning_tolerance")] = None
-    """distance to each side of the place of a column without lean within which its far end has to stay; no default"""
+    """positioning tolerance of the mast tip to each side of the undeflected position; no default"""
     wait: Annotated[Annotated[float, Measure(units.TIME, above=0)] | None, Limit()] = None
-    """longest time from the standstill until then; needed to check it"""
+    """maximum settling time after standstill; needed to check it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """A time to wait is for a window."""
-        yield from together(given, "wait", "window", "it is waited for the column to stay within a window")
+        yield from together(given, "wait", "window", "the settling time refers to a positioning tolerance")

@@ -30,15 +30,13 @@ Decrement = Annotated[float, Measure(units.RATIO, above=0, at_most=3)]
 STEEL = 210e9
 """Modulus of elasticity of structural steel [Pa], EN 1993-1-1. It is the default of `elasticity` for masts and girders.
 Their stiffness is proportional to it, their frequencies to its square root."""
-_STEEL = Absent("structural steel, whose modulus EN 1993-1-1 fixes at 210 GPa for every proof")
-_BASE_HEIGHT = Assumed(
-    0.0, 0.0, 0.6, "frames, drives and cabinets of a base have their centre up to 0.6 m above the rail"
-)
+_STEEL = Absent("structural steel, modulus 210 GPa by EN 1993-1-1")
+_BASE_HEIGHT = Assumed(0.0, 0.0, 0.6, "the centre of gravity of a base is up to 0.6 m above the rail")
 _GUIDE_PLAY = Assumed(0.0, 0.0, 0.002, "guide rollers are set with a clearance of up to 2 mm to each side")
-_PIN_FRICTION = Assumed(0.015, 0.01, 0.1, "rolling bearings 0.01 to 0.02, plain ones 0.08 to 0.1")
-_LEVER_ARM = Assumed(0.0005, 0.0003, 0.0006, "0.3 to 0.6 mm of steel rollers on steel")
-_LOAD_ARM = Assumed(0.0, -0.1, 0.1, "the load is off the centre of its pallet by up to a tenth of its length")
-_OWN_ARM = Assumed(0.0, -0.05, 0.05, "carriages hang level within some centimetres of their ropes")
+_PIN_FRICTION = Assumed(0.015, 0.01, 0.1, "rolling bearings 0.01 to 0.02, plain bearings 0.08 to 0.1")
+_LEVER_ARM = Assumed(0.0005, 0.0003, 0.0006, "0.3 to 0.6 mm for steel rollers on steel")
+_LOAD_ARM = Assumed(0.0, -0.1, 0.1, "the load is eccentric on its pallet by up to a tenth of its length")
+_OWN_ARM = Assumed(0.0, -0.05, 0.05, "the centre of gravity of a carriage is within a few centimetres of its ropes")
 _CAB_ARM = Assumed(0.0, -1.0, 1.0, "the cab is mounted at the side of the mast: up to 1 m from the ropes")
 
 
@@ -49,12 +47,12 @@ class Bridge(Fragment):
     """without the trolley"""
     span: PositiveSpan
     """from rail to rail"""
-    girder_vertical: Annotated[SecondMoment | None, OneOf("the `stiffness` of the column")] = None
+    girder_vertical: Annotated[SecondMoment | None, OneOf("the `stiffness` of the mast")] = None
     """second moment of area of ONE girder, for bending in the vertical plane"""
-    girder_horizontal: Annotated[SecondMoment | None, OneOf("the `stiffness` of the column")] = None
+    girder_horizontal: Annotated[SecondMoment | None, OneOf("the `stiffness` of the mast")] = None
     """second moment of area of ONE girder, for bending in the horizontal plane"""
     ends: Literal["supported", "clamped"] = "supported"
-    """how the end carriages hold the girders: they let them turn, or clamp them wholly"""
+    """girder ends at the end carriages: simply supported or clamped"""
     elasticity: Annotated[PositiveStress, _STEEL] = STEEL
     """modulus of elasticity; 210 GPa when left out"""
     section_modulus_vertical: Annotated[
@@ -68,55 +66,57 @@ class Bridge(Fragment):
 
 
 class Trolley(Fragment):
-    """The trolley the column hangs from."""
+    """The trolley of the suspended mast."""
 
     mass: PositiveMass
-    """with hoist and slewing gear of the column, without column, carriage and cab"""
+    """with hoist and slewing gear, without mast, carriage and cab"""
     gauge: PositiveLength
     """from girder to girder"""
-    position: Annotated[Span | None, Absent("in the middle the girders give most and bear most")] = None
-    """of the column, from the nearer end of the bridge; in the middle when left out"""
+    position: Annotated[Span | None, Absent("in the middle, deflection and stress of the girders are largest")] = None
+    """mast position from the nearer end of the bridge; default: middle"""
     wheels: Literal["free", "braked"] = "free"
-    """whether the wheels roll along the girders as these bend; a braked trolley is a little stiffer"""
+    """whether the wheels roll freely on the bending girders; a braked trolley is slightly stiffer"""
 
 
 class Base(Fragment):
-    """The bottom carriage of a rack stacker."""
+    """The base (bottom frame) of a rack stacker."""
 
     mass: PositiveMass
-    """with its drive and all that stands on it, without the column"""
+    """with its drive and equipment, without the mast"""
     wheel_base: PositiveSpan
     """from the front to the rear wheel"""
     wheel_diameter: PositiveLength
     """at the tread"""
     column: Annotated[Span | None, Assumed()] = None
-    """of the column from the rear wheel; in the middle when left out"""
+    """mast position from the rear wheel; default: middle"""
     centre: Annotated[Span | None, Assumed()] = None
     """of its centre of mass from the rear wheel; in the middle when left out"""
     height: Annotated[Span, _BASE_HEIGHT] = 0.0
     """of its centre of mass above the rail"""
     gauge: Annotated[
-        PositiveLength | None, Absent("one rail keeps nothing upright: only the guide at the head does")
+        PositiveLength | None, Absent("a single rail gives no lateral stability; only the top guide does")
     ] = None
-    """between its two rails, of a machine that stands across the aisle by itself; one rail when left out"""
+    """between its two rails, of a machine without a top guide across the aisle; one rail when left out"""
 
 
 class TopGuide(Fragment):
-    """What holds the head of the column of a rack stacker along the aisle or across it."""
+    """The top guide of a rack stacker mast, along the aisle or across it."""
 
-    stiffness: Annotated[PositiveStiffness | None, Absent("a free head swings farther than one that is held")] = None
-    """along the aisle, of the guide at the head; the head is free when left out"""
+    stiffness: Annotated[PositiveStiffness | None, Absent("a free head has a larger deflection than a guided head")] = (
+        None
+    )
+    """stiffness of the top guide along the aisle; a free head when left out"""
     gap: Annotated[Length, _GUIDE_PLAY] = 0.0
-    """clearance to each side before it holds"""
+    """clearance to each side"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of the guide across the aisle; needed to see whether it keeps the machine upright"""
+    """permissible force of the guide across the aisle; needed for the stability check"""
 
 
 class Column(Fragment):
-    """The column: it hangs from the trolley, or stands on the base. Sections are of ONE mast."""
+    """The mast, suspended from the trolley or mounted on the base. Section values refer to ONE mast."""
 
     length: PositiveSpan
-    """from where it is held to its far end; of an overhead stacker from the neutral axis of the girders"""
+    """from its support to its tip; of an overhead stacker from the neutral axis of the girders"""
     foot: Annotated[Span | None, Assumed()] = None
     """of its lower end, above the floor"""
     mass: PositiveMass
@@ -130,26 +130,27 @@ class Column(Fragment):
     second_moment_across: Annotated[SecondMoment | None, Assumed()] = None
     """of area, for bending across it: along the girders, across the aisle; as along when left out"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("second_moment")] = None
-    """at the far end, along every travel, of column and what holds it; instead of the sections of column and girders"""
+    """at the tip, along every travel, of mast and support; instead of the sections of mast and girders"""
     root_stiffness: Annotated[
         RootStiffness | None,
-        Absent("the column is welded or bolted to a stiff frame; a joint that turns is a part of its own"),
+        Absent("the mast is welded or bolted to a stiff frame; a rotating joint is a separate part"),
     ] = None
-    """of the joint that holds the column, against turning; rigid when left out"""
+    """rotational stiffness of the mast support; rigid when left out"""
     log_decrement: Annotated[
-        Decrement | None, Absent("without damping a column swings farthest; its time to settle is then not checked")
+        Decrement | None,
+        Absent("without damping, the mast oscillation is largest and the settling time is not checked"),
     ] = None
-    """of its free swing, from a measurement; needed for the time in which it settles"""
+    """of its free oscillation, from a measurement; needed for the settling time"""
     top_guide: TopGuide | None = None
     """at the head of a rack stacker"""
     section_modulus: Annotated[
         SectionModulus | None, Absent("without it the check of the mast stress is reported as not made")
     ] = None
-    """for bending along the travel of bridge or base; needed for the stress of the column"""
+    """for bending along the travel of bridge or base; needed for the mast stress"""
     section_modulus_across: Annotated[SectionModulus | None, Assumed()] = None
     """for bending across it; as along when left out"""
     area: Annotated[Annotated[float, Measure(units.AREA, above=0)] | None, Assumed()] = None
-    """of the section of one mast; the stress of pull or push is left out without it"""
+    """section area of one mast; without it the axial stress is neglected"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -173,21 +174,21 @@ class Rollers(Fragment):
     axle_diameter: PositiveLength
     """of its axle"""
     pin_friction: Annotated[Fraction, _PIN_FRICTION] = 0.015
-    """of its bearing; 0.015 rolling, 0.08 to 0.1 plain"""
+    """of its bearing; rolling bearings 0.015, plain bearings 0.08 to 0.1"""
     lever_arm: Annotated[Length, _LEVER_ARM] = 0.0005
-    """of rolling, a length; 0.3 to 0.6 mm on steel"""
+    """lever arm of rolling friction; 0.3 to 0.6 mm on steel"""
     per_set: Annotated[
         Annotated[int, Field(ge=1, le=8, strict=True)], Absent("a single roller carries the whole reaction of its set")
     ] = 1
     """rollers that share the reaction of a set"""
     planes: Literal["separate", "joint"] | None = None
-    """whether each plane has rollers of its own, or one set carries both: between the two when left out"""
+    """separate rollers per plane, or one set for both planes; an interval of both when left out"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest load of one roller; needed to check it"""
+    """rated load of one roller; needed to check it"""
 
 
 class Carriage(Fragment):
-    """The carriage that climbs the column with the load."""
+    """The hoist carriage with the load on the mast."""
 
     mass: PositiveMass
     """without load and cab, with its fork"""
@@ -196,17 +197,17 @@ class Carriage(Fragment):
     own_arm: Annotated[SignedSpan, _OWN_ARM] = 0.0
     """of the carriage's own centre of mass"""
     load_arm_across: Annotated[SignedSpan, _LOAD_ARM] = 0.0
-    """of the load, from the line of the ropes across it: with the fork out"""
+    """of the load across it, with the fork extended, from the line of the ropes"""
     own_arm_across: Annotated[SignedSpan, _OWN_ARM] = 0.0
     """of the carriage's own centre of mass"""
     lowest: Annotated[
         Span | None, Absent("the carriage path is the whole mast, which includes the worst position of any path")
     ] = None
-    """place of the carriage above the floor, at least; at the lower end of the column when left out"""
+    """lowest carriage height above the floor; default: lower end of the mast"""
     highest: Annotated[
         Span | None, Absent("the carriage path is the whole mast, which includes the worst position of any path")
     ] = None
-    """place of the carriage above the floor, at most; at the upper end of the column when left out"""
+    """highest carriage height above the floor; default: upper end of the mast"""
     rollers: Rollers
     """its guide rollers"""
 
@@ -219,7 +220,7 @@ class Carriage(Fragment):
 
 
 class Cab(Fragment):
-    """A cab that climbs with the carriage."""
+    """A cab that moves with the carriage."""
 
     mass: Mass
     """with the driver"""

@@ -23,12 +23,12 @@ _UNSEEN = 1e-9
 
 
 def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int) -> Result:
-    """Stiffness of the column at its far end, and how it swings: base held, or pushed by a force and free to roll.
+    """Stiffness of the mast at its tip, and its natural frequencies with a fixed base or a base free to roll.
 
         c = 1/(d_1 + d_2 + d_3),   det K(w) = 0
 
-    **Range** an even slender column, the load at one place of it; a base that stands or keeps to a ramp is held.
-    **Error** exact for that column without what weight does to its stiffness.
+    **Range** a uniform slender mast with the load at one place; a base at standstill or on a speed ramp is fixed.
+    **Error** exact for that mast without the effect of gravity on its stiffness.
     **Source** `laws.mast`, `laws.mast_modes`.
     """
     said: tuple[Finding, ...] = ()

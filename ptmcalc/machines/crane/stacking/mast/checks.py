@@ -41,11 +41,11 @@ def _rate_repair(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 
 def _deflection_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest swing of the far end of the column that the file allows.
+    """Permissible dynamic deflection of the mast tip, given in the file.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
-    **Source** the file: the formula of the lecture notes is lost, and no other is known.
+    **Source** the file: the lecture notes do not contain the formula, and no other source is known.
     """
     return given(spec.checks.mast_deflection)
 
@@ -69,14 +69,14 @@ DEFLECTION: OneCheck = only(_asks_deflection)(
         repair=_rate_repair,
         what="The dynamic deflection of the mast tip relative to its support is at most the limit.",
         why="A mast with large deflections hits the racks and shakes off the load. It fatigues at its root.",
-        formula="x = 2 P m_2/(c (m_1 + m_2)) of a sudden force; with the mass of the column and its modes",
+        formula="x = 2 P m_2/(c (m_1 + m_2)) for a sudden force; with the mast mass and its modes",
         source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; limit of the file",
     )
 )
 
 
 def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the column on what holds it that the file allows.
+    """Permissible mast force on its support, given in the file.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
@@ -115,11 +115,11 @@ PULL: OneCheck = only(_asks_force)(
 
 
 def _wait_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Longest wait for the column to stay in the window, from the standstill on.
+    """Permissible settling time of the mast into the positioning tolerance, from standstill.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
-    **Source** the file: no standard fixes it.
+    **Source** the file: no standard specifies it.
     """
     return given(spec.settling.wait)
 
@@ -145,7 +145,7 @@ SETTLES: OneCheck = only(_asks_wait)(
     Check(
         code="CRN253",
         title="mast settling time",
-        question="Does the mast tip settle into the positioning tolerance within the permitted wait?",
+        question="Does the mast tip settle into the positioning tolerance within the permissible time?",
         failure="mast takes too long to settle",
         scenes=frozenset({Brake}),
         loads=("settling_time",),
@@ -157,13 +157,13 @@ SETTLES: OneCheck = only(_asks_wait)(
         what="From the standstill, the mast tip settles permanently into the fork window within the permitted wait.",
         why="A fork that extends earlier hits the rack or an adjacent pallet.",
         formula="|x(t)| <= window for all t >= t_s,   t_s <= wait",
-        source="free vibration of the column; window and wait of the file",
+        source="free vibration of the mast; tolerance and settling time of the file",
     )
 )
 
 
 def _window_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """The window of the fork to either side.
+    """The positioning tolerance of the fork to either side.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
@@ -180,7 +180,7 @@ LEANS: OneCheck = only(_asks_window)(
     Check(
         code="CRN254",
         title="static mast tip deflection",
-        question="Is the static lean of the mast smaller than the positioning tolerance?",
+        question="Is the static mast tip deflection smaller than the positioning tolerance?",
         failure="static mast deflection exceeds the positioning tolerance",
         scenes=frozenset({Brake}),
         loads=("rest_deflection",),
@@ -228,7 +228,7 @@ BLOW: OneCheck = only(_asks_force)(
 
 
 def _contact_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force between the column and an obstacle that the file allows.
+    """Permissible contact force between mast and obstacle, given in the file.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
@@ -256,14 +256,14 @@ STRUCK: OneCheck = only(_asks_contact)(
         repair=of_the_mechanism("speed"),
         what="The contact force between the mast tip and the obstacle is at most the limit of both.",
         why="The contact force is short and many times the mast force. It stops the load and the mast end on its own.",
-        formula="F = v (k m_2)^(1/2), with the modes of the column",
+        formula="F = v (k m_2)^(1/2), with the modes of the mast",
         source="contact of the file; `laws.obstacle`",
     )
 )
 
 
 def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest speed at which an obstacle may be met.
+    """Permissible collision speed.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.

@@ -71,11 +71,12 @@ def _anything(loads: Loads) -> Offsets:
 
 
 def anything_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
-    """Nothing is known of a column's motion without this; a column that only turns does not move so.
+    """No bound: the mast motion cannot be computed without this effect. A mast that only rotates about its axis has no
+    such motion.
 
-    **Range** every load of the column's motion.
+    **Range** every load of the mast motion.
     **Error** unbounded.
-    **Source** there is no run that leaves it out.
+    **Source** no run neglects this effect.
     """
     return {} if turns(spec, scene) else _anything(loads)
 
@@ -93,12 +94,12 @@ def _period(one: Swinging, push: Push, mode: int) -> float:
 
 
 def flexible_criterion(spec: Stacker, scene: DrivenScene | ObstacleScene) -> Criterion | None:
-    """Period of the column over the time in which its load comes up.
+    """Ratio of the mast period to the rise time of its load.
 
         T/t_r
 
-    **Range** starts and stops; without end for a sudden force and for a collision. It is in every run.
-    **Error** an engineering measure: after a rise of some periods hardly anything swings.
+    **Range** starts and stops; infinite for a sudden force and for a collision. Every run includes this effect.
+    **Error** an engineering measure: a rise time of several periods leaves little oscillation.
     **Source** `laws.mast.rise_factor`.
     """
     if turns(spec, scene):
@@ -107,31 +108,31 @@ def flexible_criterion(spec: Stacker, scene: DrivenScene | ObstacleScene) -> Cri
     if not isinstance(scene, ObstacleScene):
         one, push = _given(spec, scene)
         value = _period(one, push, 1) / push.rise if push.rise > 0 else math.inf
-    meaning = "period of the column over the rise of its load"
+    meaning = "mast period / rise time of its load"
     return Criterion("T/t_r", value, FLEXIBLE_THRESHOLD, meaning, "laws.mast")
 
 
 def mass_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
-    """Mass of the column over what climbs it.
+    """Ratio of the mast mass to the mass of carriage and load.
 
         m_c/m_2
 
-    **Range** every motion of the column; it is in every run.
-    **Error** an engineering measure: a quarter of the column or so swings with the load.
+    **Range** every motion of the mast; every run includes this effect.
+    **Error** an engineering measure: about a quarter of the mast mass oscillates with the load.
     **Source** `laws.mast.mass_coefficient`.
     """
     if turns(spec, scene):
         return None
     value = spec.column.mass / model.climbing_mass(spec, scene)
-    return Criterion("m_c/m_2", value, MASS_THRESHOLD, "mass of the column over what climbs it", "laws.mast")
+    return Criterion("m_c/m_2", value, MASS_THRESHOLD, "mast mass / mass of carriage and load", "laws.mast")
 
 
 def modes_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
-    """Whether the second mode is set off, or has much to move.
+    """Excitation of the second mode and its share of the mass.
 
         max( T_2/(0.2 t_r), m_c/(2 m_2) )
 
-    **Range** starts and stops; without end for a sudden force.
+    **Range** starts and stops; infinite for a sudden force.
     **Error** an engineering measure.
     **Source** modal analysis; thresholds of the theory of this tool.
     """
@@ -140,15 +141,15 @@ def modes_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     one, push = _given(spec, scene)
     rise = _period(one, push, 2) / push.rise / RISE_OF_MODES if push.rise > 0 else math.inf
     heavy = spec.column.mass / model.climbing_mass(spec, scene) / MASS_OF_MODES
-    meaning = "second mode over the rise of the load, column over the load, each over its threshold"
+    meaning = "second period / rise time and mast mass / load, each relative to its threshold"
     return Criterion("T₂/t_r, m_c/m_2", max(rise, heavy), MODES_THRESHOLD, meaning, "modal analysis")
 
 
 def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
-    """What all modes but the one shape of two masses may change, from exact sums over the modes.
+    """Change due to all modes except the two-mass shape, from exact sums over the modes.
 
-    **Range** starts and stops of a column whose head is free; with a guide nothing is known.
-    **Error** derived but for one factor that is calibrated on a seeded sample: `bounds.modes_bound`.
+    **Range** starts and stops of a mast with a free head; unbounded with a top guide.
+    **Error** derived, except one factor calibrated on a seeded sample: `bounds.modes_bound`.
     **Source** modal analysis.
     """
     if turns(spec, scene):
@@ -162,26 +163,26 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
 
 
 def gravity_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
-    """Weight on the column over its stiffness.
+    """Weight on the mast relative to its stiffness.
 
         P/(c l)
 
-    **Range** every column; P of carriage, cab and load.
-    **Error** an engineering measure: weights change the stiffness by about 1.2 of it.
+    **Range** every mast; P is the weight of carriage, cab and load.
+    **Error** an engineering measure: weights change the stiffness by about 1.2 times this ratio.
     **Source** `laws.mast.gravity_stiffness`.
     """
     if turns(spec, scene):
         return None
     weight = model.climbing_mass(spec, scene) * spec.gravity
     value = weight / swinging(spec, scene).stiffness / spec.column.length
-    return Criterion("P/(c l)", value, GRAVITY_THRESHOLD, "weight on the column over its stiffness", "laws.mast")
+    return Criterion("P/(c l)", value, GRAVITY_THRESHOLD, "weight on the mast / mast stiffness", "laws.mast")
 
 
 def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
-    """What weights may do to frequencies and swing.
+    """Change of frequencies and oscillation due to gravity.
 
-    **Range** every column that its weights do not buckle; of a motion with a guided head nothing is known.
-    **Error** of frequencies derived; of a motion twice the difference of two runs of two masses, calibrated on a seeded
+    **Range** every mast below its buckling load; unbounded for a motion with a top guide.
+    **Error** derived for frequencies; for a motion twice the difference of two two-mass runs, calibrated on a seeded
     sample: `bounds.gravity_bound`.
     **Source** minimum and maximum principles of Rayleigh and Courant; `numerics.mast`.
     """
@@ -197,11 +198,11 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
 
 
 def contact_criterion(spec: Stacker, scene: ObstacleScene) -> Criterion:
-    """Force of the collision over what the brake takes; without end for a drive that is still on.
+    """Ratio of the collision force to the brake force; infinite if the drive is still on.
 
         v (c m_1)^(1/2)/W
 
-    **Range** every collision; it is in every run.
+    **Range** every collision; every run includes this effect.
     **Error** an engineering measure.
     **Source** energy, `laws.buffer.collision_force`.
     """
@@ -213,17 +214,17 @@ def contact_criterion(spec: Stacker, scene: ObstacleScene) -> Criterion:
 
 
 def holding_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
-    """What the column asks of the brake, or of a drive that keeps its speed, after the stop, over what that has.
+    """Ratio of the holding force required after the stop to the force of the brake, or of a speed-controlled drive.
 
         2 (m_12 + m_22)/m max(1, (1 + r)/(2 r^(1/2))),   1 + r = m_22 m/(m_11 m_22 - m_12^2)
 
-    **Range** starts and stops by a force; 0 along a ramp of speed. It is in every run.
-    **Error** exact at worst for two masses and a sudden force without damping: above 1 the base may slip again.
+    **Range** starts and stops by a force; 0 on a speed ramp. Every run includes this effect.
+    **Error** exact in the worst case of two masses and a sudden force without damping: above 1 the base may slip again.
     **Source** `laws.mast.after_stop_ratio`.
     """
     if turns(spec, scene):
         return None
-    meaning = "pull of the swinging column after the stop over what holds the base"
+    meaning = "force of the oscillating mast after the stop / holding force of the base"
     one, push = _given(spec, scene)
     value = 0.0
     if push.kind == "force":
@@ -236,13 +237,14 @@ def holding_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
 
 
 def holding_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
-    """Nothing is known of a column's motion without this; nor until when a base that may slip again is braked.
+    """No bound: the mast motion cannot be computed without this effect; nor can the stopping time of a base that may
+    slip again.
 
-        t_first <= t < infinity   where the column may pull its base through the brake
+        t_first <= t < infinity   if the mast may pull its base through the brake
 
-    **Range** every load of the column's motion, and the time of a stop by a force.
-    **Error** unbounded, but for the time of a stop whose base stands at once: nothing.
-    **Source** there is no run that leaves it out; `starts.slips_again`.
+    **Range** every load of the mast motion, and the time of a stop by a force.
+    **Error** unbounded; zero for the time of a stop whose base stays at standstill.
+    **Source** no run neglects this effect; `starts.slips_again`.
     """
     told = dict(anything_bound(spec, scene, loads))
     assert isinstance(scene, Start | Brake)
@@ -258,26 +260,26 @@ def guided(spec: Stacker) -> bool:
 
 
 def guide_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
-    """Stiffness of the guide at the head over that of the column there.
+    """Ratio of the top guide stiffness to the mast stiffness at the head.
 
         k_g/c
 
     **Range** rack stackers; 0 for a free head.
     **Error** an engineering measure.
-    **Source** springs side by side.
+    **Source** springs in parallel.
     """
     guide = spec.column.top_guide
     stiff = guide.stiffness if guide is not None and guide.stiffness is not None else 0.0
     value = stiff / swinging(spec, scene).stiffness if stiff else 0.0
-    return Criterion("k_g/c", value, GUIDE_THRESHOLD, "guide at the head over the column", "springs side by side")
+    return Criterion("k_g/c", value, GUIDE_THRESHOLD, "top guide stiffness / mast stiffness", "springs in parallel")
 
 
 def guide_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
-    """Nothing where the head is free; else only the frequencies are known without its guide.
+    """Zero if the head is free; otherwise only the frequencies have a bound.
 
-    **Range** every load of the column's motion.
-    **Error** exact for a free head; of frequencies a bound (`bounds.guided_frequencies`), of all else unbounded: a
-    guide makes another beam of the column.
+    **Range** every load of the mast motion.
+    **Error** exact for a free head; a bound for frequencies (`bounds.guided_frequencies`), otherwise unbounded: a guide
+    changes the support of the beam.
     **Source** statics; Rayleigh's theorem on one constraint.
     """
     if not guided(spec) or turns(spec, scene):
@@ -298,6 +300,6 @@ EFFECTS_OF_MAST: tuple[AnyEffect, ...] = (
         calibrated=True,
     ),
     Effect(CONTACT, "contact with the obstacle", frozenset({ObstacleScene}), contact_criterion, anything_bound),
-    Effect(HOLDING, "holding of the base after the stop", DRIVEN, holding_criterion, holding_bound),
+    Effect(HOLDING, "base held after the stop", DRIVEN, holding_criterion, holding_bound),
     Effect(GUIDE, "top guide of the mast", DRIVEN, guide_criterion, guide_bound),
 )

@@ -17,15 +17,15 @@ LARGEST_ERROR = 0.05
 
 
 def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) -> Result:
-    """Deflection, force and frequency of the column as the lecture notes write them.
+    """Deflection, force and frequency of the mast by the lecture notes.
 
-        m_2 = m + k m_c,   k = 0.236 for a rigid root, 0.305 for one that gives;   m_1 without any of the column
+        m_2 = m + k m_c,   k = 0.236 for a rigid root, 0.305 for a compliant root;   m_1 without the mast
         x = 2 P m_2/(c (m_1 + m_2)),   F = c x,   w = (c (m_1 + m_2)/(m_1 m_2))^(1/2)
 
-    A base that keeps to a ramp of speed has x = 2 a m_2/c and w = (c/m_2)^(1/2).
+    A base on a speed ramp has x = 2 a m_2/c and w = (c/m_2)^(1/2).
 
-    **Range** a force that comes at once and stays for more than half a period, no damping, no weight.
-    **Error** no bound: a force that rises slowly makes half of it, a light column under a heavy load 6 % less.
+    **Range** a sudden force that lasts longer than half a period, no damping, no gravity effect.
+    **Error** no bound: a slowly rising force causes half of this value, a light mast with a heavy load 6 % less.
     **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007 (stacker cranes).
     """
     push = push_of(spec, scene)

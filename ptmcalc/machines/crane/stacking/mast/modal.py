@@ -59,18 +59,18 @@ elements. A numerical choice: more elements narrow the bar, but rounding grows w
 
 
 def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int) -> Result:
-    """The column beside its base, from the beginning of an event until some swings after it.
+    """Mast motion relative to its base, from the beginning of an event until several oscillations after it.
 
         M w'' + C w' + (K + K_weights) w = -M 1 a + forces,   m a + (M 1)^T w'' = drive + friction + contact
 
-    The base slips or is held (a brake that sticks, a drive that keeps its speed), contacts open and close: each change
-    is a root of the exact motion between two of them. Peaks are roots too. A base on a ramp of speed follows it.
+    The base slips or is held (by a brake or a speed-controlled drive); contacts open and close. Each change of state is
+    a root of the exact motion; peaks are roots too. A base on a speed ramp follows the ramp.
 
     **Range** small deflections of slender columns; a drive or brake whose force depends on time alone.
-    **Error** numerical: three times the difference to half as many elements and modes, and the bound of what modes left
-    out could add to a load that comes at once. Of a largest value upward too what all modes come to that meet in phase
-    after the run, once the base is held for good.
-    **Source** `numerics.mast`; lecture notes Kramatorsk 2007 for the two-mass equations it refines.
+    **Error** numerical: three times the difference to half as many elements and modes, plus the bound of the neglected
+    modes for a sudden load. Maxima also include the sum of all modes in phase after the run, with the base held
+    permanently.
+    **Source** `numerics.mast`; lecture notes Kramatorsk 2007 for the underlying two-mass equations.
     """
     gravity = GRAVITY in carried
     if isinstance(scene, Stand):
@@ -214,8 +214,8 @@ def _remarks(scene: StackerScene, fine: Played) -> list[Finding]:
     first = course.first("base", "at rest") if isinstance(scene, Brake) and not fine.moves.follows else math.inf
     if math.isfinite(first) and math.isfinite(course.held_since) and not stands_at_once(course):
         text = (
-            f"scene `{scene.label}`: the swinging column pulls the base through its brake: at rest at {first:.3g} s,"
-            f" permanently at {course.held_since:.3g} s"
+            f"scene `{scene.label}`: the oscillating mast pulls the base through its brake: standstill at"
+            f" {first:.3g} s, permanently at {course.held_since:.3g} s"
         )
         damps = "" if course.stays else "the damping of the mast, `column.log_decrement`, determines when it ends"
         said.append(Finding("NUM110", text, hint=damps))

@@ -116,12 +116,12 @@ def _standstill(fine: Played, coarse: Played) -> Found:
     if all(one.stays and stands_at_once(one) for one in runs):
         return Found(begun)
     if math.isinf(lasts[0]):
-        note = f"by {fine.course.record.time:.3g} s the base has no permanent standstill"
+        note = f"by {fine.course.record.time:.3g} s the base is not permanently at standstill"
         return Found(Estimate(math.inf, begun.low, math.inf, model=math.inf), note=note)
     apart = _MARGIN * abs(lasts[0] - lasts[1])
     low = max(begun.low, min(*lasts, lasts[0] - apart))
     high = max(begun.high, *lasts, lasts[0] + apart) if all(one.stays for one in runs) else math.inf
-    note = "the column pulls the base through its brake after the first standstill"
+    note = "the mast pulls the base through its brake after the first standstill"
     if math.isinf(high):
         return Found(Estimate(lasts[0], low, high, model=math.inf), note=f"{note}, and may do so again")
     return Found(Estimate(lasts[0], low, high, numerical=max(lasts[0] - low, high - lasts[0])), note=note)
@@ -206,7 +206,9 @@ def blow_loads(fine: Played, coarse: Played) -> dict[str, Found]:
         note = "the impact on a rigid obstacle has a finite impulse only, no finite force"
         found["contact_force"] = Found(Estimate.unknown(math.inf), {"time": 0.0}, note)
     elif obstacle.damping:
-        note = "a dashpot pushes at the first touch as hard as it is fast: the largest force is one of this model"
+        note = (
+            "a dashpot force at first contact is proportional to the speed: the maximum force is specific to this model"
+        )
         found["contact_force"] = Found(Estimate.unknown(value), {"time": time}, note)
     else:
         found["contact_force"] = Found(_bar(value, coarse.course.top("contact")[0]), {"time": time})

@@ -29,16 +29,17 @@ reported and the error bar is unbounded."""
 
 
 def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) -> Result:
-    """The load against the base, from the beginning of a start or stop until some swings after it.
+    """Motion of the load relative to the base, from the beginning of a start or stop until several oscillations after
+    it.
 
         m_22 x'' + b x' + c x = -(m_12 + m_22) u'',   (m_11 + 2 m_12 + m_22) u'' + (m_12 + m_22) x'' = P(t)
 
-    The base slips or is held, by a brake that sticks or a drive that keeps its speed; each change is a root of the
-    exact motion, and so is each peak. The moment is that of the inertia of the column in its shape, and of the load.
+    The base slips or is held by a brake or a speed-controlled drive; each change and each peak is a root of the exact
+    motion. The moment is that of the inertia forces of mast and load.
 
-    **Range** the shape of a force at the far end; no guide at the head.
-    **Error** of two masses rounding, which the balance of energy tells; what the shape leaves out is the bound of the
-    higher modes.
+    **Range** the deflection shape of a force at the tip; no top guide.
+    **Error** rounding for two masses, verified by the energy balance; the bound of the higher modes covers the assumed
+    shape.
     **Source** lecture notes Kramatorsk 2007 (two masses); consistent masses (`laws.mast`); `numerics.mast`.
     """
     if push_of(spec, scene).size <= 0:  # the drive stalls: nothing moves
@@ -109,7 +110,7 @@ def valid(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     """
     guide = spec.column.top_guide
     if guide is not None and guide.stiffness is not None:
-        return Criterion("k_g", 1.0, 1.0, "the head of the column is guided: it keeps to no one shape", "the file")
+        return Criterion("k_g", 1.0, 1.0, "the top guide excludes a single deflection shape", "the file")
     return evenly(spec, scene)
 
 

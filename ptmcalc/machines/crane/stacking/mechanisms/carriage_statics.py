@@ -10,12 +10,12 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
 def run(spec: Stacker, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """Forces of a carriage that starts upwards, or comes to rest on its way down.
+    """Forces of a carriage that starts upwards, or stops during lowering.
 
         R = (1 + a/g) |Q e + G b|/h,   W = 2 R (mu d + 2 f)/D,   S = ((1 + a/g)(Q + G) +- W)/(m eta^+-1)
 
-    **Range** vertical ropes; the acceleration of the file, with a rope that does not stretch.
-    **Error** the two planes' rollers, where the file does not say how they are put together: in the bar.
+    **Range** vertical ropes; the acceleration of the file, with an inextensible rope.
+    **Error** the error bar covers the unknown combination of the rollers of both planes.
     **Source** lecture notes Kramatorsk 2007 (`laws.carriage`).
     """
     found = climbing.loads(spec, scene)

@@ -14,11 +14,11 @@ from ptmcalc.spec.scene import Scene
 
 
 def _roller_limit(spec: Stacker, scene: HoistScene) -> Estimate:
-    """Largest load of a guide roller.
+    """Permissible load of a guide roller.
 
     **Range** any roller.
     **Error** none: a limit of the file.
-    **Source** the maker of the roller.
+    **Source** the manufacturer of the roller.
     """
     return given(spec.carriage.rollers.rating)
 
@@ -40,15 +40,15 @@ ROLLERS: OneCheck = Check(
     why="The reaction is proportional to the lever arm divided by the roller distance. Short carriages with long forks"
     " wear roller and rail.",
     formula="(1 + a/g) |Q e + G b|/h <= n R_0",
-    source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; the maker of the roller",
+    source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; the manufacturer of the roller",
 )
 
 
 def _jamming_limit(spec: Stacker, scene: HoistScene) -> Estimate:
-    """A resistance as large as the weight holds the carriage up.
+    """1: a guide resistance equal to the weight holds the carriage.
 
     **Range** any guide.
-    **Error** none: a balance; a file may require more than 1.
+    **Error** none: an equilibrium; a file may require more than 1.
     **Source** balance of the carriage.
     """
     return Estimate.exact(spec.checks.self_jamming)
@@ -77,7 +77,7 @@ JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
 
 
 def _rope_limit(spec: Stacker, scene: HoistScene) -> Estimate:
-    """Safety that the file, or the group of the mechanism, asks of a rope on one layer.
+    """Safety factor required by the file, or by the mechanism group for a rope on one layer.
 
     **Range** running wire ropes.
     **Error** none: a table.
@@ -134,7 +134,7 @@ def _drive_repair(spec: Stacker, scene: Braked) -> KeyPath:
 
 
 def _start_limit(spec: Stacker, scene: Braked) -> Estimate:
-    """Longest start, 10 s by default.
+    """Maximum starting time, 10 s by default.
 
     **Range** any mechanism.
     **Error** none: an engineering rule.
@@ -144,7 +144,7 @@ def _start_limit(spec: Stacker, scene: Braked) -> Estimate:
 
 
 def _brake_limit(spec: Stacker, scene: Braked) -> Estimate:
-    """Longest stop, 10 s by default.
+    """Maximum stopping time, 10 s by default.
 
     **Range** any mechanism.
     **Error** none: an engineering rule.
@@ -194,11 +194,11 @@ BRAKE_TIME: OneCheck = Check(
 
 
 def _starts_limit(spec: Stacker, scene: Braked) -> Estimate:
-    """As many starts as motor and brake allow.
+    """1: the permitted starts of motor and brake.
 
     **Range** any mechanism.
     **Error** none: a limit of the file.
-    **Source** the maker of motor and brake.
+    **Source** the manufacturer of motor and brake.
     """
     return Estimate.exact(1.0)
 
@@ -235,7 +235,7 @@ STARTS: OneCheck = only(_counts)(
         what="The number of starts per hour of the mechanism is at most the rating of motor and brake.",
         why="Each start dissipates in rotor and brake an energy equal to the kinetic energy of all moving masses.",
         formula="z <= z_0",
-        source="the maker of motor and brake; combination 1 of the notes' tables",
+        source="the manufacturer of motor and brake; combination 1 of the notes' tables",
     )
 )
 

@@ -10,17 +10,18 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
 def run(spec: Stacker, scene: Braked, carried: frozenset[str], level: int) -> Result:
-    """Time of a start or a stop, by the momentum of all that travels; starts per hour over the permitted ones.
+    """Starting or stopping time from the momentum of the travelling masses; ratio of starts per hour to permitted
+    starts.
 
         t = v/a + t_r  of a ramp,   M v = integral of P  of a force
 
     **Range** as `starts.time`.
-    **Error** the swing of the column: bounded in the bar.
+    **Error** the error bar bounds the mast oscillation.
     **Source** momentum (`starts.time`).
     """
     name = "brake_time" if isinstance(scene, Brake) else "start_time"
     note = (
-        "the start follows the motor's curve, and the swing of the column moves it along that"
+        "the start follows the motor curve, and the mast oscillation changes the motor torque"
         if model.uneven(spec, scene)
         else ""
     )
@@ -40,5 +41,5 @@ DRIVE_TIMES: Solver[Stacker, Braked] = Solver(
     gives=frozenset({"start_time", "brake_time", "starts_ratio"}),
     run=run,
     cost=lambda spec, scene, carried, level: 1e-4,
-    source="momentum of what travels; bound of the swing derived by Cauchy",
+    source="momentum of the travelling masses; bound of the oscillation derived by Cauchy",
 )

@@ -18,10 +18,10 @@ ROLLS: frozenset[type[Scene]] = frozenset({RailScene})
 
 
 def _contact_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """A wheel stays on its rail.
+    """0: the wheel stays on its rail.
 
     **Range** any wheel.
-    **Error** none: a wheel does not pull.
+    **Error** none: a wheel transmits no tension.
     **Source** equilibrium.
     """
     return Estimate.exact(0.0)
@@ -62,11 +62,11 @@ CONTACT: OneCheck = Check(
 
 
 def _detuning_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Least distance from resonance, 0.2 by default.
+    """Minimum separation from resonance, 0.2 by default.
 
-    **Range** even waves.
+    **Range** uniform waves.
     **Error** none: an engineering rule.
-    **Source** handbooks: keep 20 to 30 % away from a natural frequency.
+    **Source** handbooks: separation of 20 to 30 % from a natural frequency.
     """
     return Estimate.exact(spec.checks.rail_detuning)
 
@@ -87,7 +87,7 @@ RESONANCE: OneCheck = only(lambda spec, scene: isinstance(spec, RackStacker) and
         what="The relative separation of the rail wave frequency from each natural frequency is at least the limit."
         " The natural frequencies are those of the mast and of the machine on its wheels.",
         why="A rail ground in uniform waves excites the mast at one speed: v = f lambda.",
-        formula="|v/(lambda f) - 1| >= 0.2 for wheels and column",
+        formula="|v/(lambda f) - 1| >= 0.2 for wheels and mast",
         source="resonance; `laws.rail.resonance_speed`",
     ),
 )

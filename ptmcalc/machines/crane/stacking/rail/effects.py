@@ -28,32 +28,32 @@ def _anything(loads: Loads) -> Offsets:
 
 
 def uneven_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
-    """Share of gravity by which the rail changes the wheel loads.
+    """Change of the wheel loads by the rail, relative to gravity.
 
         max( (pi/2)^2 v^2/(g r) max u,  T (h/2) (2 pi v/lambda)^2/g )
 
-    **Range** steps and gaps small beside the wheel; even waves.
+    **Range** steps and gaps small relative to the wheel; uniform waves.
     **Error** exact for one undamped mode.
     **Source** `laws.rail`.
     """
     roll = roll_of(spec, scene)
     answers = [max(pair) for pair in roll.pulses(roll.frequency)]
     value = max([wave_share(roll)] + [roll.acceleration / roll.gravity * one for one in answers])
-    return Criterion("a_w/g", value, UNEVEN_THRESHOLD, "what the rail adds to the wheel loads", "laws.rail")
+    return Criterion("a_w/g", value, UNEVEN_THRESHOLD, "wheel load added by the rail", "laws.rail")
 
 
 def uneven_bound(spec: RackStacker, scene: RailScene, loads: Loads) -> Offsets:
-    """Nothing is known of an uneven rail without it.
+    """No bound: an uneven rail cannot be computed without this effect.
 
     **Range** every load of a rail.
     **Error** unbounded.
-    **Source** there is no run that leaves it out.
+    **Source** no run neglects this effect.
     """
     return _anything(loads)
 
 
 def jump_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
-    """Share of its load that a wheel loses on the rail: at 1 it leaves it.
+    """Relative unloading of a wheel on the rail: at 1 the wheel leaves the rail.
 
         max( (pi/2)^2 v^2/(g r) max(-u),  T (h/2) (2 pi v/lambda)^2/g )
 
@@ -64,15 +64,15 @@ def jump_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
     roll = roll_of(spec, scene)
     answers = [less for _, less in roll.pulses(roll.frequency)]
     value = max([wave_share(roll)] + [roll.acceleration / roll.gravity * one for one in answers])
-    return Criterion("a_l/g", value, JUMPING_THRESHOLD, "what the rail takes off a wheel load", "laws.rail")
+    return Criterion("a_l/g", value, JUMPING_THRESHOLD, "wheel load reduction by the rail", "laws.rail")
 
 
 def jump_bound(spec: RackStacker, scene: RailScene, loads: Loads) -> Offsets:
-    """Nothing while the wheels stay on the rail; one that leaves it comes down with a blow of its own.
+    """Zero while the wheels stay on the rail; a wheel that leaves the rail lands with an impact.
 
     **Range** every load of a rail.
-    **Error** exact while the least wheel load is above 0; else unbounded, and a contact is not below 0.
-    **Source** a wheel does not pull.
+    **Error** exact while the minimum wheel load is above 0; otherwise unbounded, and a contact force is not below 0.
+    **Source** a wheel transmits no tension.
     """
     contact = loads.get("rail_contact")
     if contact is None or contact.low >= 0:

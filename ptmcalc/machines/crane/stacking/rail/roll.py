@@ -41,12 +41,12 @@ _GIVES = names(OF_THE_RAIL) | {
 
 
 def standard(spec: RackStacker, scene: RailScene, carried: frozenset[str], level: int) -> Result:
-    """The factor of the standards: what is left of the swing behind step or gap.
+    """Factor of the standards from the residual oscillation after the step or gap.
 
         phi_4 = 1 + (pi/2)^2 v^2/(g r) xi(alpha)
 
     **Range** one vertical mode.
-    **Error** no bound: while a wheel still climbs the machine may feel more; waves are not in it.
+    **Error** no bound: the acceleration may be larger while a wheel still climbs; waves are not included.
     **Source** EN 13001-2, ISO 8686-1.
     """
     roll = roll_of(spec, scene)
@@ -61,15 +61,15 @@ def standard(spec: RackStacker, scene: RailScene, carried: frozenset[str], level
 
 
 def response(spec: RackStacker, scene: RailScene, carried: frozenset[str], level: int) -> Result:
-    """Wheel loads by the whole answer of the machine, and the swing of the column over its tilting base.
+    """Wheel loads from the complete response of the machine, and the mast oscillation on its tilting base.
 
-        phi_4 = 1 + a_w/g max u on step, gap and behind them, or 1 + T a_w/g on waves;   x = q f(l),
+        phi_4 = 1 + a_w/g max u on step, gap and after them, or 1 + T a_w/g on waves;   x = q f(l),
         q'' + w^2 q = -s (h_1'' - h_2'')/B, h_1 and h_2 the lifts of both wheels, one after the other
 
-    **Range** one vertical mode without damping at steps and gaps; one mode of the column, without damping and without
-    a guide at its head along the aisle; wheels that stay on the rail.
+    **Range** one vertical mode without damping at steps and gaps; one mast mode without damping and without a top guide
+    along the aisle; wheels that stay on the rail.
     **Error** exact for those modes.
-    **Source** `laws.rail`; the column's swing exact from event to event, `numerics.train`.
+    **Source** `laws.rail`; mast oscillation exact between events, `numerics.train`.
     """
     roll = roll_of(spec, scene)
     more, less = _waves(roll)
@@ -83,14 +83,15 @@ def response(spec: RackStacker, scene: RailScene, carried: frozenset[str], level
 
 
 def jump(spec: RackStacker, scene: RailScene, carried: frozenset[str], level: int) -> Result:
-    """The same with wheels that leave the rail and come down again, exact from event to event.
+    """The same with wheels that leave the rail and land again, exact between events.
 
         F = max(0, Q - k u - b u'),   u'' = F/M - g - h''
 
-    The least wheel load is that of wheels held to the rail: below 0 by what it takes to hold them.
+    The minimum wheel load is that of wheels held to the rail: a value below 0 is the required holding force.
 
-    **Range** a wheel without mass, which follows the spring; three periods behind step or gap.
-    **Error** exact between events; bars from runs that divide time otherwise, trusted only if the energy ledger closes.
+    **Range** a massless wheel that follows the spring; three periods after step or gap.
+    **Error** exact between events; error bars from runs with other time steps, accepted only if the energy balance
+    closes.
     **Source** `numerics.train`.
     """
     roll = roll_of(spec, scene)
@@ -167,7 +168,7 @@ def not_too_long(spec: RackStacker, scene: RailScene) -> Criterion:
     """
     roll = roll_of(spec, scene)
     value = max((pulse.lasts * roll.frequency for pulse in pulses(roll)), default=0.0)
-    return Criterion("w t", value, MOST_RADIANS, "radians of the machine's swing on a step or gap", "limit of the run")
+    return Criterion("w t", value, MOST_RADIANS, "radians of the oscillation on a step or gap", "limit of the run")
 
 
 def undamped(spec: RackStacker, scene: RailScene) -> Criterion | None:

@@ -18,14 +18,14 @@ _SCENES = frozenset({SafetyGearScene})
 
 
 def run(spec: Stacker, scene: SafetyGearScene, carried: frozenset[str], level: int) -> Result:
-    """Fall until the governor trips and the gear holds, then the catch.
+    """Free fall until the governor trips and the safety gear acts, then the stop.
 
         v_c = k v + g t_r;   progressive: s = v_c^2/(2 (F_c/M - g))
         instantaneous: F = M g + ((M g)^2 + K M v_c^2)^(1/2)
 
-    At the foot of the column a force that comes at once is felt twice, and moments go with the arm of the gear.
+    At the mast foot a sudden force counts twice; moments are proportional to the lever arm of the gear.
 
-    **Range** ropes that fail as the carriage sinks at full speed; no friction of the guides.
+    **Range** rope failure while the carriage lowers at full speed; no guide friction.
     **Error** exact for a gear of constant force, and for an elastic one.
     **Source** `laws.safety_gear`.
     """
@@ -50,8 +50,8 @@ def run(spec: Stacker, scene: SafetyGearScene, carried: frozenset[str], level: i
 
 def _too_far(one: Fall) -> str:
     if math.isinf(one.distance):
-        return "the gear does not hold the weight: the carriage goes on, faster and faster"
-    return f"its stroke ends before: {units.show(one.left, units.SPEED)} is left there"
+        return "the gear does not hold the weight: the carriage accelerates further"
+    return f"its stroke ends before standstill: residual speed {units.show(one.left, units.SPEED)}"
 
 
 GEAR_CATCH: Solver[Stacker, SafetyGearScene] = Solver(

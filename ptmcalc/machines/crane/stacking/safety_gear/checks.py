@@ -15,11 +15,11 @@ FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
 
 
 def _gear_stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Way the safety gear has.
+    """Stroke of the safety gear.
 
     **Range** any gear.
     **Error** none: a limit of the file.
-    **Source** the maker of the gear.
+    **Source** the manufacturer of the gear.
     """
     return given(spec.safety_gear.stroke if spec.safety_gear is not None else None)
 
@@ -52,7 +52,7 @@ GEAR_STROKE: OneCheck = Check(
 
 
 def _holding_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """A gear holds more than the weight.
+    """1: the gear force equals the weight.
 
     **Range** any gear.
     **Error** none: equilibrium.
@@ -81,7 +81,7 @@ HOLDS: OneCheck = Check(
 
 
 def _deceleration_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest deceleration of the carriage.
+    """Permissible deceleration of the carriage.
 
     **Range** any carriage; 9.81 m/s^2 is usual for a cab with a driver.
     **Error** none: a limit of the file.
@@ -95,7 +95,7 @@ DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration
         code="CRN292",
         title="safety gear deceleration",
         question="Is the deceleration of the carriage in the safety gear within its limit?",
-        failure="safety gear stops the carriage too hard",
+        failure="deceleration in the safety gear is too high",
         scenes=FALLS,
         loads=("safety_gear_deceleration",),
         sense=Sense.AT_MOST,

@@ -23,25 +23,25 @@ def _anything(loads: Loads) -> Offsets:
 
 
 def gear_criterion(spec: Stacker, scene: SafetyGearScene) -> Criterion:
-    """Force of the gear over the weight; it is never left out.
+    """Ratio of the gear force to the weight; the effect is never neglected.
 
         F/(M g)
 
-    **Range** every catch; it is in every run.
+    **Range** every stop by the safety gear; every run includes this effect.
     **Error** exact for the gear.
     **Source** `laws.safety_gear`.
     """
     one = fall_of(spec, scene)
     value = one.force / (one.mass * spec.gravity)
-    return Criterion("ψ", value, GEAR_THRESHOLD, "force of the safety gear over the weight", "laws.safety_gear")
+    return Criterion("ψ", value, GEAR_THRESHOLD, "safety gear force / weight", "laws.safety_gear")
 
 
 def gear_bound(spec: Stacker, scene: SafetyGearScene, loads: Loads) -> Offsets:
-    """Nothing is known of a catch without it.
+    """No bound: the stop cannot be computed without this effect.
 
-    **Range** every load of a catch.
+    **Range** every load of the stop by the safety gear.
     **Error** unbounded.
-    **Source** there is no run that leaves it out.
+    **Source** no run neglects this effect.
     """
     return _anything(loads)
 

@@ -30,11 +30,11 @@ Shares = Callable[[Stacker, StackerScene, stresses.Event], dict[str, float]]
 
 
 def _stability_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """The moment that holds is at least the one that tips; files ask for more.
+    """1: the stabilising moment is at least the tipping moment; the file may require more.
 
     **Range** a machine on its wheels.
-    **Error** none: a balance at 1.
-    **Source** balance of moments; how much more standards ask differs.
+    **Error** none: an equilibrium at 1.
+    **Source** equilibrium of moments; the additional reserve differs between standards.
     """
     return Estimate.exact(spec.checks.stability)
 
@@ -136,7 +136,7 @@ def _of_travel(spec: Stacker, scene: StackerScene) -> bool:
 
 
 def _column_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest stress of the column that the file allows.
+    """Permissible mast stress, given in the file.
 
     **Range** any combination.
     **Error** none: a limit of the file.
@@ -181,7 +181,7 @@ COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not N
 
 
 def _bridge_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest stress of the girders that the file allows.
+    """Permissible girder stress, given in the file.
 
     **Range** any combination.
     **Error** none: a limit of the file.

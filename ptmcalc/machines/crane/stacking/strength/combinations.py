@@ -13,8 +13,8 @@ from ptmcalc.contract.result import of
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 CRANE, LOAD = "weight of the crane", "weight of the lifted load"
-MECHANISMS, OBSTACLE = "dynamic: starting and braking of mechanisms", "dynamic: running into an obstacle"
-PUSH, CAUGHT = "dynamic: fork pushing against the rack", "dynamic: fork caught by the rack while hoisting"
+MECHANISMS, OBSTACLE = "dynamic: starting and braking of mechanisms", "dynamic: collision with an obstacle"
+PUSH, CAUGHT = "dynamic: fork pushing against the rack", "dynamic: fork snagged in the rack while hoisting"
 RAIL, GEAR = "dynamic: irregularities of the rail", "dynamic: safety gear"
 
 
@@ -46,10 +46,10 @@ _ALL = (1, 2, 3, 4, 5, 6)
 """Numbers of all load combinations of tables 11.1 and 11.2, lecture notes Kramatorsk 2007. The weights of crane and
 load are part of each; without a number they are missing from that combination."""
 _INERTIA = (
-    "combination 1 leaves starting and braking out although the rope formula of the same source has inertia in it:"
-    " inertia is taken in the rope force (scene `hoist`), and the combination stays one of weights"
+    "combination 1 excludes starting and braking although the rope formula of the same source has inertia in it:"
+    " inertia is included in the rope force (scene `hoist`), and the combination contains weights only"
 )
-_STRUCTURE = "bridge structure, column, mechanisms"
+_STRUCTURE = "bridge structure, mast, mechanisms"
 
 OVERHEAD = Combinations(
     "11.1",
@@ -70,7 +70,7 @@ OVERHEAD = Combinations(
         "structures and intermediate elements",
     ),
     (
-        "combinations 1, 2 and 6 take the same loads: they can differ only by partial factors or limit states (rated,"
+        "combinations 1, 2 and 6 have the same loads: they can differ only by partial factors or limit states (rated,"
         " test, fatigue), which the source does not state",
         _INERTIA,
         "the last printed line, `while hoisting`, has empty cells: it is the end of the line above it, as table 11.2"
@@ -92,14 +92,14 @@ RACK = Combinations(
     (
         "motors and brakes of all mechanisms, ropes",
         "stability",
-        "the column across the aisle and the rack (not stated in the source)",
+        "the mast across the aisle and the rack (not stated in the source)",
         "the hoisting mechanism and the carriage (not stated in the source)",
-        "wheels, base and column (not stated in the source)",
-        "column and safety gear (not stated in the source)",
+        "wheels, base and mast (not stated in the source)",
+        "mast and safety gear (not stated in the source)",
     ),
     (
-        "lines of the printed table have five or seven cells instead of six: read on the diagonal, the only reading in"
-        " which each combination takes one dynamic load",
+        "lines of the printed table have five or seven cells instead of six: read diagonally, the only reading in"
+        " which each combination contains one dynamic load",
         _INERTIA,
     ),
 )
@@ -142,7 +142,7 @@ _COLUMNS = (
     Column("scene", "scene"),
     Column("solver", "solver"),
     Column("effects", "effects of the run"),
-    Column("column_stress", "column stress"),
+    Column("column_stress", "mast stress"),
     Column("bridge_stress", "bridge stress"),
     Column("use", "for", detail=True),
 )
@@ -157,7 +157,7 @@ def _forces(given: Combinations, scenes: Sequence[SceneReport]) -> TableReport:
     )
     return TableReport(
         f"{given.name} forces",
-        f"Forces of table {given.name}: the load that marks each combination, and the run it comes from",
+        f"Forces of table {given.name}: the leading load of each combination, and the run that computes it",
         tuple(_COLUMNS[index] for index in shown),
         tuple(tuple(row[index] for index in shown) for row in rows),
         given.notes,

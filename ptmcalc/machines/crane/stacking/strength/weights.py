@@ -11,11 +11,11 @@ from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_deriv
 
 
 def run(spec: Stacker, scene: Stand, carried: frozenset[str], level: int) -> Result:
-    """Weight of crane and load, stiffness of the column at its far end, and what follows from weights alone.
+    """Weight of crane and load, mast stiffness at the tip, and loads that follow from weights alone.
 
         c = 1/(d_column + d_rotation + d_shift),   G = g sum m
 
-    **Range** a column without weight of its own and without a guide at its head, small deflections.
+    **Range** a weightless mast without a top guide, small deflections.
     **Error** exact for that model.
     **Source** lecture notes Kramatorsk 2007 (`laws.mast`); balance.
     """

@@ -22,18 +22,19 @@ _LEFT = 3.0
 
 
 def run(spec: Travelling, scene: Collision, carried: frozenset[str], level: int) -> Result:
-    """Forces, strokes and what speed is left, by the place of the trolley: the rail beside it gets more than half.
+    """Buffer forces, strokes and residual speed for the trolley position: the rail near the trolley takes more than
+    half.
 
-        M y'' + F(y) = P + H,   H = m g (x - y_h)/L for a load that swings;   phi_7 by the energy share xi of the curve
+        M y'' + F(y) = P + H,   H = m g (x - y_h)/L for a suspended load;   phi_7 by the energy share xi of the curve
 
-    The crane is free to turn within the play of its guides: M has the bridge as an even rod, trolley and a guided load
-    as points. A load that hangs pulls as its ropes lean. The buffers on both rails are alike; a single one stands in
-    the middle. Two cranes that meet with equal buffers are, by their motion relative to each other, one of twice the
-    reduced mass and half the speed of both on one of them, its mass where this one has it.
+    The crane may rotate within the clearance of its guides: in M the bridge is a uniform rod, trolley and guided load
+    are points. A suspended load acts by the angle of its ropes. The buffers on both rails are equal; a single buffer is
+    in the middle. Two colliding cranes with equal buffers are equivalent to one crane with twice the reduced mass and
+    half the closing speed on one buffer set.
 
     **Range** a stiff bridge; buffers that push only; wheels that roll, without resistance; small angles of the load.
-    **Error** that of the steps, told by two runs; guides without play would share the force evenly, which is less; the
-    rolling resistance is left out, on the safe side.
+    **Error** that of the time steps, estimated from two runs; guides without clearance would share the force equally,
+    which is less; the rolling resistance is neglected, on the safe side.
     **Source** Newton's law in the plane of the bridge; EN 13001-2, ISO 8686-1, SNiP 2.01.07-85 (`laws.buffer`).
     """
     given = spec.buffers
@@ -101,7 +102,11 @@ def _never(straight: Stopped, count: int, deceleration: float) -> dict[str, Foun
 
 
 def _bottoms(left: float) -> str:
-    return f"the buffers bottom out: {units.show(left, units.SPEED)} is left at the end of their stroke" if left else ""
+    return (
+        f"the buffers bottom out: residual speed {units.show(left, units.SPEED)} at the end of their stroke"
+        if left
+        else ""
+    )
 
 
 BUFFER_COLLISION: Solver[Travelling, Collision] = Solver(

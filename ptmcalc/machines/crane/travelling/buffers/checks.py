@@ -9,11 +9,11 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def _stroke_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Way the buffer can be pressed in.
+    """Buffer stroke given in the file.
 
     **Range** any buffer.
     **Error** none: a limit of the file.
-    **Source** the maker of the buffer.
+    **Source** the manufacturer of the buffer.
     """
     return rating(spec.buffers.stroke if spec.buffers is not None else None)
 
@@ -39,11 +39,11 @@ STROKE: OneCheck = Check(
 
 
 def _force_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Largest force of a buffer, or of what it stands on.
+    """Permissible force of a buffer, or of its end stop.
 
     **Range** any buffer.
     **Error** none: a limit of the file.
-    **Source** the maker of the buffer, the end stop's calculation.
+    **Source** the manufacturer of the buffer, the calculation of the end stop.
     """
     return rating(spec.buffers.rating if spec.buffers is not None else None)
 
@@ -68,10 +68,10 @@ FORCE: OneCheck = Check(
 
 
 def _speed_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Largest speed at which a buffer may be hit.
+    """Permissible impact speed of a buffer.
 
     **Range** any buffer.
-    **Error** none: a limit of the file or of the buffer's maker.
+    **Error** none: a limit of the file or of the buffer manufacturer.
     **Source** the file.
     """
     own = spec.buffers.largest_speed if spec.buffers is not None else None
@@ -104,7 +104,7 @@ HIT: OneCheck = only(_has_speed)(
         why="The stiffness of rubber and cellular buffers increases with the compression speed. Load and driver are"
         " not restrained.",
         formula="share of v <= v_max",
-        source="the maker of the buffer",
+        source="the manufacturer of the buffer",
     )
 )
 

@@ -22,19 +22,19 @@ class Wheels(Fragment):
     base: PositiveSpan
     """from the front to the rear corners, along the rail"""
     per_corner: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one wheel has the largest load of all")] = 1
-    """wheels of a corner, in balanced bogies"""
+    """wheels of a corner, in equalising bogies"""
     driven: Annotated[tuple[Corner, ...], Field(min_length=1, max_length=4)]
     """corners with driven wheels, e.g. `[A1, B1]`"""
     driven_per_corner: Annotated[
-        Annotated[int, Field(ge=1, le=16, strict=True)] | None, Absent("a corner that is named is driven as a whole")
+        Annotated[int, Field(ge=1, le=16, strict=True)] | None, Absent("all wheels of a named corner are driven")
     ] = None
     """driven wheels of such a corner; all when left out"""
     frame: Literal["hinged", "rigid"] = "hinged"
-    """how the four corners share the loads: girders hinged to their end carriages, or a frame that does not twist"""
+    """load distribution on the corners: girders hinged to the end carriages, or a torsionally rigid frame"""
     inertia: Annotated[Inertia | None, Assumed()] = None
     """of one wheel"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest load of one wheel, or of the rail under it; needed to check it"""
+    """rated load of one wheel, or of the rail under it; needed to check it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -52,18 +52,18 @@ class Wheels(Fragment):
 
 
 class Rolling(Fragment):
-    """What the wheels resist with."""
+    """Rolling resistance of the wheels."""
 
     coefficient: Annotated[Fraction | None, OneOf("lever_arm")] = None
-    """all resistance over the weight, or give `lever_arm`"""
+    """total resistance / weight, or give `lever_arm`"""
     lever_arm: Annotated[Length | None, OneOf("coefficient")] = None
-    """of rolling, of steel on steel 0.3 to 1 mm by the diameter"""
+    """lever arm of rolling friction; steel on steel 0.3 to 1 mm, depending on the diameter"""
     bearing_friction: Annotated[Fraction | None, Assumed()] = None
-    """of the wheels' bearings; 0.015 rolling, 0.08 to 0.1 plain"""
+    """of the wheel bearings; rolling bearings 0.015, plain bearings 0.08 to 0.1"""
     axle_diameter: Annotated[PositiveLength | None, Assumed()] = None
     """at the middle of the bearings; a quarter of the wheel when left out"""
     flange_factor: Annotated[Annotated[float, Measure(units.RATIO, at_least=1, at_most=10)] | None, Assumed()] = None
-    """for flanges that rub, 1.5 to 2.5; 1 with guide rollers"""
+    """factor of flange friction, 1.5 to 2.5; 1 with guide rollers"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -78,50 +78,50 @@ class Rolling(Fragment):
 
 
 class Rail(Fragment):
-    """What it runs on."""
+    """The runway rail."""
 
     slope: Annotated[
-        Slope, Assumed(0.0, 0.0, 0.001, "runways are laid to a slope of 0.001 along their length (ISO 12488-1)")
+        Slope, Assumed(0.0, 0.0, 0.001, "tolerance of the runway slope: 0.001 along the length (ISO 12488-1)")
     ] = 0.0
-    """rise over length"""
+    """slope: rise / length"""
     adhesion: Annotated[Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None, Assumed()] = None
     """between wheel and rail: 0.2 indoors, 0.12 outdoors, 0.25 with sand; 0.14 is assumed when left out"""
-    step: Annotated[Length, Absent("without step and gap there is no scene `rail_step` that reads them")] = 0.0
-    """height of the largest step"""
-    gap: Annotated[Length, Absent("without step and gap there is no scene `rail_step` that reads them")] = 0.0
-    """width of the largest gap"""
+    step: Annotated[Length, Absent("used only in the scene `rail_step`, with a step or gap")] = 0.0
+    """height of the maximum step"""
+    gap: Annotated[Length, Absent("used only in the scene `rail_step`, with a step or gap")] = 0.0
+    """width of the maximum gap"""
     head: Annotated[PositiveLength | None, OneOf("guide.wear")] = None
-    """width of its head, by which guides wear; 50 mm is assumed when left out"""
+    """rail head width, for the guide wear; 50 mm is assumed when left out"""
     frequency: Annotated[Annotated[float, Measure(units.FREQUENCY, above=0)] | None, Assumed()] = None
-    """of the crane that swings vertically on its wheels; 10 Hz is assumed for a `rail_step`"""
+    """vertical natural frequency of the crane on its wheels; 10 Hz is assumed for a `rail_step`"""
 
 
 class Guide(Fragment):
-    """Guides that keep a skewing crane on its rails."""
+    """Lateral guides of the crane."""
 
     type: Literal["flanges", "rollers"] = "flanges"
     """flanges of the wheels, or guide rollers"""
     clearance: Length
     """clearance between guide and rail, both sides together"""
     wear: Annotated[Length | None, Assumed()] = None
-    """of guide and rail; a tenth of the rail's head is assumed with flanges, 0.03 of it with rollers"""
-    base: Annotated[PositiveSpan | None, Absent("flanges guide at the wheels; rollers in front of them press less")] = (
-        None
-    )
-    """from the foremost to the rearmost guide; the wheel base when left out"""
+    """wear of guide and rail; 0.1 of the rail head width is assumed with flanges, 0.03 with rollers"""
+    base: Annotated[
+        PositiveSpan | None, Absent("flanges guide at the wheels; guide rollers ahead of them have smaller forces")
+    ] = None
+    """from the front to the rear guide; default: the wheel base"""
     rail_two: Literal["fixed", "movable"] = "fixed"
-    """whether the wheels or legs of the other rail hold sideways"""
+    """whether the wheels or legs of the other rail are laterally fixed"""
     adhesion: Annotated[
         Annotated[float, Measure(units.RATIO, above=0, at_most=1)],
-        Absent("the largest friction of the standards: the rail was cleaned"),
+        Absent("the maximum friction of the standards, for a clean rail"),
     ] = 0.3
-    """of wheels that slip across the rail; 0.3 as a rule, 0.2 on rails that are never cleaned"""
+    """of wheels that slip across the rail; usually 0.3, 0.2 on uncleaned rails"""
     tolerance: Annotated[
         Annotated[float, Measure(units.ANGLE, at_least=0)],
         Assumed(0.001, 0.001, 0.002, "EN 13001-2, EN 1991-3: 0.001 rad for wheels and rails of usual tolerances"),
     ] = 0.001
-    """angle of wheels and rails by tolerances"""
+    """skewing angle due to tolerances of wheels and rails"""
     edition: Literal["en_13001_2", "en_1991_3", "full"] = "en_13001_2"
-    """by which the clearance becomes an angle"""
+    """standard for the skewing angle due to clearance"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of a guide; needed to check it"""
+    """permissible force of a guide; needed to check it"""

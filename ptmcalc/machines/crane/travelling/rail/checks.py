@@ -8,10 +8,10 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def _contact_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """A wheel stays on its rail.
+    """0: the wheel stays on its rail.
 
     **Range** any wheel.
-    **Error** none: a wheel does not pull.
+    **Error** none: a wheel transmits no tension.
     **Source** equilibrium.
     """
     return Estimate.exact(0.0)

@@ -16,14 +16,14 @@ Numbers = dict[str, float]
 
 
 def run(spec: Travelling, scene: RailStep, carried: frozenset[str], level: int) -> Result:
-    """Largest and least load of the wheels by the whole answer of the mass above them.
+    """Maximum and minimum wheel load from the complete response of the mass above the wheels.
 
         u'' + omega^2 u = omega^2 a(t)/a_max:   phi_4 = 1 + (pi/2)^2 v^2/(g r) max u
 
-    In the climb and after it, the worse of step and gap.
+    During the climb and after it, the worse of step and gap.
 
-    **Range** one vertical mode without damping, at rest before; steps and gaps small beside the wheel.
-    **Error** exact for that model; a wheel that leaves the rail is told by its least load below 0.
+    **Range** one vertical mode without damping, initially at rest; steps and gaps small relative to the wheel.
+    **Error** exact for that model; a minimum wheel load below 0 means that a wheel leaves the rail.
     **Source** `laws.rail`; the model of EN 13001-2 and ISO 8686-1.
     """
     pairs = [(number, rail.step_extremes(number)) for number in _step_numbers(spec, scene)] + [
@@ -35,12 +35,12 @@ def run(spec: Travelling, scene: RailStep, carried: frozenset[str], level: int) 
 
 
 def standard(spec: Travelling, scene: RailStep, carried: frozenset[str], level: int) -> Result:
-    """The factor of the standard: what is left of the swing behind the step or gap.
+    """Factor of the standard from the residual oscillation after the step or gap.
 
         phi_4 = 1 + (pi/2)^2 v^2/(g r) xi(alpha)
 
     **Range** as `rail_response`.
-    **Error** no bound: for alpha above 1 the mass feels more while the wheel still climbs.
+    **Error** no bound: for alpha above 1 the acceleration of the mass is larger while the wheel still climbs.
     **Source** EN 13001-2, ISO 8686-1, travelling on an uneven surface.
     """
     answers = [float(rail.residual_step(number)) for number in _step_numbers(spec, scene)]

@@ -8,7 +8,7 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def _guide_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Largest force of a guide.
+    """Permissible force of a guide.
 
     **Range** flanges and guide rollers.
     **Error** none: a limit of the file.

@@ -14,15 +14,15 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def run(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> Result:
-    """Force of the rail on the foremost guide, the worse rail and place of the trolley.
+    """Skewing force of the rail on the front guide, for the worse rail and trolley position.
 
         alpha = s/a + w/a + alpha_t,   f = mu_0 (1 - exp(-250 alpha)),   S = sum of the wheels' forces across
 
-    Flanges guide with the foremost wheels, rollers in front of them. Pairs of wheels on one shaft turn alike, all
-    others by themselves. Beside the standard's force stands that of wheels which slip along the curve, each for itself.
+    Flanges guide at the front wheels, guide rollers ahead of them. Wheel pairs on one shaft are coupled, all others
+    rotate independently. The report also contains the force with the friction curve applied to the slip of each wheel.
 
-    **Range** two pairs of wheels; a crane that does not bend.
-    **Error** exact for friction that grows with the slip; the curve of f is empirical.
+    **Range** two pairs of wheels; a rigid crane.
+    **Error** exact for friction proportional to the slip; the curve of f is empirical.
     **Source** EN 13001-2, ISO 8686-1, EN 1991-3 (`laws.skew`).
     """
     given = spec.guide

@@ -28,7 +28,7 @@ def _torque(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
 
 
 def _reserve_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Least starting torque, the smallest up to full speed, over that of even travel, 1.1 by default.
+    """Minimum ratio of the lowest starting torque up to full speed to the steady travel torque, 1.1 by default.
 
     **Range** any drive that starts against wind and slope.
     **Error** none: an engineering rule.
@@ -60,11 +60,11 @@ STALL: OneCheck = Check(
 
 
 def _wind_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """The motors at least hold the crane against the wind.
+    """1: the motors hold the crane against the wind.
 
     **Range** cranes in the wind.
-    **Error** none: a balance.
-    **Source** EN 13001-2, ISO 4302: largest wind in service.
+    **Error** none: an equilibrium.
+    **Source** EN 13001-2, ISO 4302: maximum in-service wind.
     """
     return Estimate.exact(1.0)
 
@@ -94,10 +94,10 @@ AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
 
 
 def _overhauling_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Braking torque of the motors at least that with which wind and slope drive them.
+    """1: the braking torque of the motors is at least the overhauling torque of wind and slope.
 
-    **Range** motors of which the file gives a curve.
-    **Error** none: a balance.
+    **Range** motors with a curve in the file.
+    **Error** none: an equilibrium.
     **Source** balance of torques on the motor shaft.
     """
     return Estimate.exact(1.0)
@@ -119,7 +119,7 @@ OVERHAULED: OneCheck = only(_driven)(
         code="CRN165",
         title="motor braking torque reserve",
         question="Do the motors hold the overhauling crane at its speed?",
-        failure="wind or slope drive the motors beyond their curve",
+        failure="wind or slope overcomes the braking torque of the motors",
         scenes=RUNNING | STARTS,
         loads=("overhauling_reserve",),
         sense=Sense.AT_LEAST,
@@ -143,9 +143,9 @@ def _on_duty(spec: Travelling, scene: TravelScene) -> bool:
 
 
 def _heat_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """All that the rating allows at the duty factor of the file.
+    """The full rating at the duty factor of the file.
 
-    **Range** ratings at another duty factor are converted with the motor's cooling at rest.
+    **Range** ratings at another duty factor are converted with the cooling of the motor at standstill.
     **Error** none: a definition.
     **Source** IEC 60034-1; `laws.duty.permissible_torque`.
     """
@@ -183,11 +183,11 @@ HEAT: OneCheck = only(_on_duty)(
 
 
 def _starts_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Most starts per hour that the maker allows.
+    """Permitted starts per hour of the manufacturer.
 
     **Range** any motor.
     **Error** none: a limit of the file.
-    **Source** the maker of the motor.
+    **Source** the manufacturer of the motor.
     """
     allowed = spec.drive.motor.starts_per_hour
     return Estimate.exact(math.inf if allowed is None else allowed)
@@ -213,13 +213,13 @@ STARTS_PER_HOUR: OneCheck = only(_counts_starts)(
         what="The number of motor starts per hour is at most the rating of the manufacturer.",
         why="Each start dissipates in the rotor an energy equal to the kinetic energy of all moving masses.",
         formula="z <= z_0",
-        source="the maker of the motor; IEC 60034-1",
+        source="the manufacturer of the motor; IEC 60034-1",
     )
 )
 
 
 def _group_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Group of the crane that the file claims.
+    """Crane group declared in the file.
 
     **Range** A1 to A8.
     **Error** none: a class.

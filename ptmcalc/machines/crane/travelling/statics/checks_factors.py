@@ -19,7 +19,7 @@ def _factor_limit(name: str) -> Callable[[Travelling, TravelScene], Estimate]:
     def limit(spec: Travelling, scene: TravelScene) -> Estimate:
         return rating(getattr(spec.declared, name))
 
-    limit.__doc__ = f"""The {name} with which the structure has been calculated.
+    limit.__doc__ = f"""The {name} with which the structure has been designed.
 
     **Range** any crane.
     **Error** none: a number of the file.

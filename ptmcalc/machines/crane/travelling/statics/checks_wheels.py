@@ -17,11 +17,11 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def _wheel_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Largest load of a wheel by its rating.
+    """Rated wheel load.
 
     **Range** any wheel and rail.
     **Error** none: a limit of the file.
-    **Source** the maker of wheel or rail.
+    **Source** the manufacturer of wheel or rail.
     """
     rating = spec.wheels.rating
     return Estimate.exact(math.inf if rating is None else rating)
@@ -48,10 +48,10 @@ WHEEL: OneCheck = Check(
 
 
 def _lift_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """A wheel stays on its rail.
+    """0: the wheel stays on its rail.
 
     **Range** any crane.
-    **Error** none: a wheel does not pull.
+    **Error** none: a wheel transmits no tension.
     **Source** equilibrium.
     """
     return Estimate.exact(0.0)
@@ -78,10 +78,10 @@ LIFTS: OneCheck = Check(
 
 
 def _stability_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Moments that keep the crane on its wheels at least those that tip it, both with partial factors.
+    """1: the stabilising moment is at least the tipping moment, both with partial factors.
 
     **Range** any crane.
-    **Error** none: a balance; the factors are those of the edition.
+    **Error** none: an equilibrium; the factors are those of the edition.
     **Source** EN 13001-2, FEM 1.001.
     """
     return Estimate.exact(spec.checks.stability)

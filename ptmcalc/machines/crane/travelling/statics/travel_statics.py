@@ -20,12 +20,12 @@ Numbers = dict[str, float]
 
 
 def run(spec: Travelling, scene: TravelScene, carried: frozenset[str], level: int) -> Result:
-    """Loads of a crane that travels evenly with its load at rest on the ropes.
+    """Loads of a crane in steady travel with its load at rest relative to the crane.
 
         W = (w cos(alpha) + sin(alpha)) G + F_wind,   M = W r/(u eta),   N by levers over span and wheel base
 
-    **Range** rails that give alike under every corner; a load that hangs at rest.
-    **Error** exact for that model: what is not known of it stands among the assumptions.
+    **Range** equal rail compliance under every corner; a load without sway.
+    **Error** exact for that model; the report lists the assumptions.
     **Source** equilibrium (`laws.travel`, `laws.wheel_loads`), power balance of the gear (`laws.gearing`),
     IEC 60034-1 and ISO 4301-1 (`laws.duty`, `laws.classification`), EN 13001-2 and ISO 8686-1 for the factors.
     """
@@ -115,7 +115,7 @@ TRAVEL_STATICS: Solver[Travelling, TravelScene] = Solver(
 
 
 def reserve(spec: Travelling, scene: TravelScene, carried: frozenset[str], level: int) -> Result:
-    """What the motors have over the resistance in a scene that begins with them.
+    """Reserve of the motor torque over the resistance in a scene that starts with the motors.
 
         reserve = min M(n)/(W r/(u eta));   of braking: n M_b/(-W r eta_r/u) where W < 0
 

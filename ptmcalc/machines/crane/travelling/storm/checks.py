@@ -9,11 +9,11 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def _storm_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Least reserve against the wind out of service, 1.1 by default.
+    """Minimum reserve against the out-of-service wind, 1.1 by default.
 
-    **Range** cranes in the open.
+    **Range** outdoor cranes.
     **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines; the standards' partial factors instead, where they are used.
+    **Source** handbooks of lifting machines; instead of it the partial factors of the standards, if they apply.
     """
     return Estimate.exact(spec.checks.wind_reserve)
 

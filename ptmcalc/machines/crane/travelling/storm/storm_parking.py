@@ -14,14 +14,14 @@ from ptmcalc.machines.crane.travelling.sway.course import State
 
 
 def run(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -> Result:
-    """What the wind asks and what brakes and clamps hold.
+    """Out-of-service wind force, and holding force of brakes and rail clamps.
 
         F = q c A + G sin(alpha);   held: sum of min(M_b u/(r eta_r)/n, mu N_k) + clamps
 
-    A braked wheel holds its share of the brakes, or its adhesion where that is less; the others roll freely.
+    A braked wheel holds its share of the brake force, or its adhesion if that is smaller; the other wheels roll freely.
 
     **Range** wind along the rails; brakes closed.
-    **Error** exact for that model; the rolling resistance of the other wheels is left out, on the safe side.
+    **Error** exact for that model; the rolling resistance of the other wheels is neglected, on the safe side.
     **Source** balance along the rails; winds of EN 13001-2, ISO 4302.
     """
     assert spec.wind is not None
@@ -42,7 +42,7 @@ def run(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -> 
         value = float(rolling.extreme(state, largest)[0])
         found[name] = Found(Estimate.exact(value), note=rolling.where(state, largest))
     if by_brakes > by_wheels:
-        found["holding_force"] = Found(Estimate.exact(held), note="braked wheels slide before their brakes do")
+        found["holding_force"] = Found(Estimate.exact(held), note="the braked wheels slip before the brakes")
     return Result(found, work=1)
 
 

@@ -41,7 +41,7 @@ def _rate_blame(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
 
 
 def _start_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Longest start, 15 s by default.
+    """Maximum starting time, 15 s by default.
 
     **Range** any crane.
     **Error** none: an engineering rule; 5 to 10 s is usual.
@@ -72,7 +72,7 @@ SLOW: OneCheck = Check(
 
 
 def _stop_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Longest stop, 15 s by default.
+    """Maximum stopping time, 15 s by default.
 
     **Range** any crane.
     **Error** none: an engineering rule.
@@ -103,7 +103,7 @@ LONG_STOP: OneCheck = Check(
 
 
 def _distance_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Longest way to a stop that the file allows.
+    """Permissible stopping distance, given in the file.
 
     **Range** any crane.
     **Error** none: a limit of the file.
@@ -135,11 +135,11 @@ LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not 
 
 
 def _sway_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Largest angle of the load, 10 deg by default.
+    """Maximum sway angle of the load, 10 deg by default.
 
     **Range** any crane.
-    **Error** none: an engineering rule; 3 to 6 deg where loads are set down by hand.
-    **Source** the file, else usual practice.
+    **Error** none: an engineering rule; 3 to 6 deg if loads are guided by hand.
+    **Source** the file, otherwise usual practice.
     """
     return Estimate.exact(spec.checks.sway_angle)
 
@@ -166,7 +166,7 @@ SWAY: OneCheck = only(hangs)(
 
 
 def _residual_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Largest angle that stays, as the file allows.
+    """Permissible residual sway angle, given in the file.
 
     **Range** any crane.
     **Error** none: a limit of the file.
@@ -199,7 +199,7 @@ RESIDUAL: OneCheck = only(lambda spec, scene: hangs(spec, scene) and spec.checks
 
 
 def _skid_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Least adhesion over what is asked of a driven wheel, 1.2 by default.
+    """Minimum ratio of the adhesion to the required force of a driven wheel, 1.2 by default.
 
     **Range** steel wheels on rails.
     **Error** none: an engineering rule.
@@ -237,9 +237,9 @@ SKID: OneCheck = Check(
 
 
 def _ramp_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """All that the motors give.
+    """The full torque of the motors.
 
-    **Range** drives that keep to a ramp of speed.
+    **Range** drives on a speed ramp.
     **Error** none: a definition.
     **Source** the mean starting torque of the file.
     """

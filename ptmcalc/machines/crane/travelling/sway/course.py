@@ -43,7 +43,7 @@ class Phase:
 
     name: str
     pulls: tuple[Estimate, Estimate]
-    """least and largest pull of the load on the crane, against the travel [N]"""
+    """least and largest force of the load on the crane, against the travel [N]"""
     weight: Interval
     """of the load on the crane, downwards: what the bars let it be [N]"""
     rest_weight: float

@@ -87,69 +87,69 @@ def _period(motion: Motion) -> float:
 
 
 def sway_criterion(spec: Travelling, scene: Moving) -> Criterion:
-    """Largest angle that a sudden acceleration gives the load.
+    """Maximum sway angle of the load under a sudden acceleration.
 
         2 a/g
 
-    a is that of the ramp, or of the rigid crane under its mean force; 0 where nothing hangs.
+    a is that of the ramp, or of the rigid crane under its mean force; 0 without a suspended load.
 
-    **Range** every start and stop; it is in every run.
+    **Range** every start and stop; every run includes this effect.
     **Error** an engineering measure: exact for small angles and a start of half a period or more.
     **Source** pendulum under a sudden acceleration.
     """
     value = 2 * mean_acceleration(spec, scene) / spec.gravity if model.hanging(spec, scene) else 0.0
-    return Criterion("2a/g", value, SWAY_THRESHOLD, "angle of the load by a sudden start", "pendulum")
+    return Criterion("2a/g", value, SWAY_THRESHOLD, "sway angle of the load at a sudden start", "pendulum")
 
 
 def anything_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing is known of a start or stop without this.
+    """No bound: a start or stop cannot be computed without this effect.
 
     **Range** every load of a start or a stop.
     **Error** unbounded.
-    **Source** there is no run that leaves it out.
+    **Source** no run neglects this effect.
     """
     return _anything(loads)
 
 
 def reaction_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing where a ramp is kept or nothing hangs on the ropes; else nothing is known without it.
+    """Zero if the drive follows a ramp or no load is suspended; otherwise unbounded.
 
     **Range** every load of a start or a stop.
-    **Error** exact where the load cannot change the motion; else unbounded.
-    **Source** there is no run that leaves it out.
+    **Error** exact if the load cannot change the motion; otherwise unbounded.
+    **Source** no run neglects this effect.
     """
     motion = motion_of(spec, scene)
     return {} if motion.ramp is not None or not motion.load else _anything(loads)
 
 
 def hoisting_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing where the ropes keep their length; else nothing is known without it.
+    """Zero if the rope length is constant; otherwise unbounded.
 
     **Range** every load of a start or a stop.
-    **Error** exact for ropes of constant length; else unbounded.
-    **Source** there is no run that leaves it out.
+    **Error** exact for ropes of constant length; otherwise unbounded.
+    **Source** no run neglects this effect.
     """
     return _anything(loads) if motion_of(spec, scene).hoisting else {}
 
 
 def wind_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing without wind and slope; else nothing is known without it.
+    """Zero without wind and slope; otherwise unbounded.
 
     **Range** every load of a start or a stop.
-    **Error** exact where there are none; else unbounded.
-    **Source** there is no run that leaves it out.
+    **Error** exact without them; otherwise unbounded.
+    **Source** no run neglects this effect.
     """
     motion = motion_of(spec, scene)
     return _anything(loads) if motion.outside or motion.on_load or motion.wind else {}
 
 
 def reaction_criterion(spec: Travelling, scene: Moving) -> Criterion:
-    """Load over what a torque has to move besides it; 0 for a drive that keeps to a ramp.
+    """Ratio of the load mass to the other masses moved by the torque; 0 for a drive on a speed ramp.
 
         M/m_t
 
-    **Range** every start and stop; it is in every run.
-    **Error** an engineering measure: the square of the frequency grows by it.
+    **Range** every start and stop; every run includes this effect.
+    **Error** an engineering measure: the square of the frequency increases by this ratio.
     **Source** two masses, one of them a pendulum.
     """
     motion = motion_of(spec, scene)
@@ -161,25 +161,27 @@ def reaction_criterion(spec: Travelling, scene: Moving) -> Criterion:
 
 
 def hoisting_criterion(spec: Travelling, scene: Moving) -> Criterion:
-    """Share of its length that the rope wins or loses in one swing.
+    """Relative change of the rope length in one sway period.
 
         |V| T/L
 
-    **Range** a load that is hoisted while the crane starts; else 0. It is in every run.
+    **Range** a load that is hoisted during the start of the crane; otherwise 0. Every run includes this effect.
     **Error** an engineering measure.
     **Source** pendulum of changing length.
     """
     motion = motion_of(spec, scene)
     value = abs(motion.hoisting) * _period(motion) / motion.length
-    return Criterion("|V| T/L", value, HOISTING_THRESHOLD, "change of the rope in a swing over its length", "pendulum")
+    return Criterion(
+        "|V| T/L", value, HOISTING_THRESHOLD, "change of rope length per sway period / rope length", "pendulum"
+    )
 
 
 def wind_criterion(spec: Travelling, scene: Moving) -> Criterion:
-    """Wind and slope over the force of the drive or the brakes.
+    """Ratio of wind and slope force to the force of the drive or the brakes.
 
         |F_w + F_s|/F
 
-    **Range** every start and stop; it is in every run.
+    **Range** every start and stop; every run includes this effect.
     **Error** an engineering measure.
     **Source** balance along the rails.
     """
@@ -187,48 +189,49 @@ def wind_criterion(spec: Travelling, scene: Moving) -> Criterion:
     mass = motion.body + motion.load
     force = motion.force if motion.ramp is None else mass * motion.ramp + motion.rolling
     value = abs(motion.outside) / force if force else math.inf
-    return Criterion("F_w/F", value, WIND_THRESHOLD, "wind and slope over what drives or brakes", "balance of forces")
+    return Criterion(
+        "F_w/F", value, WIND_THRESHOLD, "wind and slope force / driving or braking force", "balance of forces"
+    )
 
 
 # -- finite angles --------------------------------------------------------------------------------------------------
 
 
 def large_criterion(spec: Travelling, scene: Moving) -> Criterion:
-    """What finite angles may change of the swing, over its largest angle.
+    """Change of the sway due to finite angles, relative to the maximum angle.
 
         (x - atan x) (2 + omega t)/(2 x),   x = a/g,   t of the ramp or the rigid start
 
     **Range** every start and stop.
-    **Error** a bound for a ramp and ropes of constant length, an engineering measure else.
+    **Error** a bound for a ramp and ropes of constant length, otherwise an engineering measure.
     **Source** derived at `large_bound`.
     """
     if not model.hanging(spec, scene):
-        return Criterion("Δθ/θ", 0.0, LARGE_THRESHOLD, "what finite angles may change of the swing", "derived")
+        return Criterion("Δθ/θ", 0.0, LARGE_THRESHOLD, "change of the sway by finite angles", "derived")
     motion = motion_of(spec, scene)
     a = mean_acceleration(spec, scene)
     x = a / motion.gravity
     turned = 2 * math.pi / _period(motion) * motion.speed / a if a else math.inf
     value = far(x) * (2 + turned) / (2 * x) if x else 0.0
-    return Criterion("Δθ/θ", value, LARGE_THRESHOLD, "what finite angles may change of the swing", "derived")
+    return Criterion("Δθ/θ", value, LARGE_THRESHOLD, "change of the sway by finite angles", "derived")
 
 
 def large_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
-    """The difference e of the swing psi of finite angles from the linear one, under a sudden acceleration a = x g.
+    """Difference e between the finite-angle sway psi and the linear sway, under a sudden acceleration a = x g.
 
         e'' + omega^2 e = omega^2 R,   R = psi - sin psi - x (1 - cos psi)
 
-    From rest 0 <= psi <= 2 atan x, where R falls from 0 to -2 h, h = x - atan x. Its middle -h alone makes
-    2 h |sin(omega t/2)| of (e, e'/omega), what it strays from it no more than h omega t:
+    From rest 0 <= psi <= 2 atan x, where R falls from 0 to -2 h, h = x - atan x. The mean -h alone contributes 2 h
+    |sin(omega t/2)| to (e, e'/omega); the deviation from the mean contributes at most h omega t:
 
         |(e, e'/omega)| <= h (2 |sin(omega t/2)| + omega t)
 
-    Of a free swing that begins with rho = |(psi, psi'/omega)|, the largest angle lies between rho and 2 asin(rho/2).
-    The pull of the rope goes with the angle by T = M (3 g cos psi + 3 a sin psi - 2 g), in a free swing of amplitude A
-    by M g (3 cos psi - 2 cos A).
+    For a free sway that begins with rho = |(psi, psi'/omega)|, the maximum angle is between rho and 2 asin(rho/2). The
+    rope force is T = M (3 g cos psi + 3 a sin psi - 2 g), and M g (3 cos psi - 2 cos A) in a free sway of amplitude A.
 
-    **Range** a ramp from rest or to rest, ropes of constant length, no wind or slope on the load, a below g; a crane
-    with nothing on its ropes has no bound to keep; else unbounded.
-    **Error** a bound; on the seeded sample of the test a third of it does not hold.
+    **Range** a ramp from rest or to rest, ropes of constant length, no wind or slope on the load, a below g; zero for a
+    crane without a suspended load; otherwise unbounded.
+    **Error** a bound; on the seeded sample of the test, a third of this bound is exceeded.
     **Source** derived: Duhamel's integral; energy of the pendulum.
     """
     motion = motion_of(spec, scene)
@@ -260,11 +263,11 @@ def large_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
 
 
 def curve_criterion(spec: Travelling, scene: Moving) -> Criterion:
-    """How far the motor's torque strays from its mean on the way to full speed.
+    """Relative range of the motor torque up to full speed.
 
         (M_max - M_min)/M_mean
 
-    **Range** a start by torque of a motor whose curve the file gives; else 0.
+    **Range** a torque-controlled start with a motor curve; otherwise 0.
     **Error** an engineering measure.
     **Source** the curve of the file.
     """
@@ -274,7 +277,7 @@ def curve_criterion(spec: Travelling, scene: Moving) -> Criterion:
         assert curve is not None
         torques = curve.torque(np.linspace(0.0, model.motor_speed(spec), 65), np.inf)
         value = float(np.ptp(torques)) / spec.drive.motor.mean_torque
-    return Criterion("ΔM/M", value, CURVE_THRESHOLD, "spread of the motor's torque over its mean", "motor curve")
+    return Criterion("ΔM/M", value, CURVE_THRESHOLD, "range of the motor torque / mean motor torque", "motor curve")
 
 
 def follows_curve(spec: Travelling, scene: Moving) -> bool:
@@ -284,10 +287,10 @@ def follows_curve(spec: Travelling, scene: Moving) -> bool:
 
 
 def curve_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing where the start follows no curve; else nothing is known without it.
+    """Zero if the start follows no motor curve; otherwise unbounded.
 
     **Range** every load of a start or a stop.
-    **Error** exact without a curve; else unbounded: the largest torque of a motor is several times its mean.
+    **Error** exact without a curve; otherwise unbounded: the maximum torque of a motor is several times its mean.
     **Source** the curve of the file.
     """
     return _anything(loads) if follows_curve(spec, scene) else {}
@@ -297,7 +300,8 @@ def curve_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
 
 
 def slip_criterion(spec: Travelling, scene: Moving) -> Criterion:
-    """Force asked of the driven wheel with the least adhesion over it, the load pulling twice as in even acceleration.
+    """Ratio of required force to adhesion of the driven wheel with the lowest adhesion; the load force counts twice
+    that of uniform acceleration.
 
         F/(mu N)
 
@@ -312,14 +316,14 @@ def slip_criterion(spec: Travelling, scene: Moving) -> Criterion:
     state = State(a, pull, motion.load * motion.gravity, traction, motion.wind)
     least = float(Wheels.of(spec, scene).least_grip(state)[0])
     value = 1 / least if least else math.inf
-    return Criterion("F/μN", value, SLIP_THRESHOLD, "force of a driven wheel over its adhesion", "laws.skid")
+    return Criterion("F/μN", value, SLIP_THRESHOLD, "required force of a driven wheel / adhesion", "laws.skid")
 
 
 def slip_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
-    """Nothing where no driven wheel needs more than its adhesion; else nothing is known without it.
+    """Zero if no driven wheel requires more than its adhesion; otherwise unbounded.
 
     **Range** every load of a start or a stop.
-    **Error** exact where all wheels roll; else unbounded: a crane whose wheels slide has another start and stop.
+    **Error** exact if all wheels roll; otherwise unbounded: a crane with slipping wheels starts and stops differently.
     **Source** Coulomb's friction.
     """
     least = loads.get("skid_reserve_min")
@@ -334,13 +338,14 @@ def slip_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
 
 
 def rail_criterion(spec: Travelling, scene: RailStep) -> Criterion:
-    """Share of gravity by which a step or gap of the rail changes the wheel loads.
+    """Change of the wheel loads at a step or gap of the rail, relative to gravity.
 
-        (pi/2)^2 v^2/(g r) max(more, less)   of the extremes on a step or gap and behind it
+        (pi/2)^2 v^2/(g r) max(more, less)   of the extremes on a step or gap and after it
 
-    **Range** steps and gaps small beside the wheel; 0 for an even rail.
-    **Error** exact for one undamped mode: behind a step the swing may vanish while that on it does not.
-    **Source** `laws.rail.step_extremes`, `gap_extremes`; EN 13001-2 counts the swing behind alone.
+    **Range** steps and gaps small relative to the wheel; 0 for a smooth rail.
+    **Error** exact for one undamped mode: the oscillation may vanish after a step although it does not vanish on the
+    step.
+    **Source** `laws.rail.step_extremes`, `gap_extremes`; EN 13001-2 considers only the oscillation after the step.
     """
     radius, speed = model.radius(spec), scene.speed_share * spec.speed
     frequency = 2 * math.pi * model.filled(spec.rail.frequency)
@@ -352,15 +357,15 @@ def rail_criterion(spec: Travelling, scene: RailStep) -> Criterion:
         number = rail.gap_number(frequency, speed, spec.rail.gap)
         answers += rail.gap_extremes(number)
     value = rail.rail_acceleration(speed, radius) / spec.gravity * max(answers)
-    return Criterion("a_w/g", value, RAIL_THRESHOLD, "what the rail adds to the wheel loads", "laws.rail")
+    return Criterion("a_w/g", value, RAIL_THRESHOLD, "wheel load added by the rail", "laws.rail")
 
 
 def rail_bound(spec: Travelling, scene: RailStep, loads: Loads) -> Offsets:
-    """Nothing is known of a step without this.
+    """No bound: a step cannot be computed without this effect.
 
     **Range** phi4 and the contact of the wheels.
     **Error** unbounded.
-    **Source** there is no run that leaves it out.
+    **Source** no run neglects this effect.
     """
     return dict.fromkeys(loads, ANYTHING)
 

@@ -78,7 +78,7 @@ class _Journey:
             if found is not None:
                 return self.go(name, push, ratio, found, force, rotor)
             reach *= 2
-        raise NumericsError("NUM103", f"the crane does not come to {speed:g} m/s by {reach:.3g} s")
+        raise NumericsError("NUM103", f"the crane does not reach {speed:g} m/s by {reach:.3g} s")
 
     def _case(self, push: Pieces, ratio: float) -> LinearCase:
         left = _from(self.lengths, self.time)
@@ -152,7 +152,9 @@ def _lengths(motion: Motion) -> Pieces:
         return Pieces.constant(motion.length)
     end = motion.length - motion.hoisting * motion.hoist_time
     if end <= 0:
-        raise NumericsError("NUM102", f"no rope is left at {motion.length / motion.hoisting:.3g} s: hoist for less")
+        raise NumericsError(
+            "NUM102", f"no rope is left at {motion.length / motion.hoisting:.3g} s: reduce the hoisting time"
+        )
     return Pieces.through(((0.0, motion.length), (motion.hoist_time, end)))
 
 
@@ -196,7 +198,7 @@ def _stop(journey: _Journey) -> None:
         mass = motion.body + motion.rotor + motion.carried
         journey.go("delay", Pieces.constant(-drag / mass), _pulling(motion) / mass, motion.delay, 0.0, motion.rotor)
         if min(float(journey.stretches[-1].swing.smallest(linear.SPEED).value), journey.speed) <= 0:
-            raise NumericsError("NUM102", "it coasts to rest before its brakes act")
+            raise NumericsError("NUM102", "it coasts to standstill before its brakes act")
     mass = motion.body + motion.rotor_braked + motion.carried
     push = Pieces.constant(-(motion.force + drag) / mass)
     force = motion.force
@@ -235,7 +237,7 @@ def _crossing(swing: LinearSwing, speed: float, up: bool, period: float) -> floa
 
 def _turned_round(swing: LinearSwing) -> None:
     if swing.smallest(linear.SPEED).value < -1e-9 * abs(swing.largest(linear.SPEED).value):
-        raise NumericsError("NUM102", "the load pulls the crane back before it has its speed")
+        raise NumericsError("NUM102", "the load pulls the crane back before it reaches its speed")
 
 
 # -- what is read off -----------------------------------------------------------------------------------------------

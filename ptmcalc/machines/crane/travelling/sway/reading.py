@@ -19,14 +19,16 @@ from ptmcalc.machines.crane.travelling.wheels import FloatArray, Wheels, driven_
 
 STALL = "stall: the motors do not bring the crane to full speed against friction, wind and slope"
 RUNAWAY = "the brakes do not stop the crane against wind and slope"
-GRIP = "accelerate and brake less, drive more wheels, or give `rail.adhesion` its value"
-SLIDES = "driven wheels slide: times, swing and wheel loads are those of wheels that hold, and decide nothing"
+GRIP = "reduce acceleration and deceleration, drive more wheels, or correct `rail.adhesion`"
+SLIDES = "driven wheels slip: times, sway and wheel loads are those without slip and decide no verdict"
 
 
 def findings_of(spec: Travelling, scene: Moving, loads: Mapping[str, Found]) -> tuple[Finding, ...]:
     """What a start or stop says of itself: that it does not come about, or leaves what is reckoned with."""
     if math.isinf(loads["start_time" if model.starts(scene) else "brake_time"].estimate.value):
-        why, hint = (STALL, "give it more torque") if model.starts(scene) else (RUNAWAY, "give it stronger brakes")
+        why, hint = (
+            (STALL, "increase the motor torque") if model.starts(scene) else (RUNAWAY, "increase the brake torque")
+        )
         return (Finding("NUM110", why, rate_key(spec, scene), hint),)
     if loads["skid_reserve_min"].estimate.low < 1:
         return (Finding("NUM102", SLIDES, rate_key(spec, scene), GRIP),)
@@ -43,7 +45,7 @@ def failures_of(spec: Travelling, scene: Moving, loads: Mapping[str, Found]) -> 
     if math.isinf(time) or not grip.high < 1:
         return ()
     what = "start" if model.starts(scene) else "stop"
-    message = f"driven wheels slide in the {what}: their adhesion is {grip.high:.3g} times the required one"
+    message = f"driven wheels slip in the {what}: their adhesion is {grip.high:.3g} times the required one"
     return (Failure("CRN155", message, rate_key(spec, scene), GRIP),)
 
 

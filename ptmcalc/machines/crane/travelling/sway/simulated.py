@@ -363,7 +363,7 @@ def _read(motion: Motion, legs: list[Leg], reached: float, begins: float, window
     named = ((0.0, "start"), (reached, "travel")) if motion.starts else ((0.0, "stop"), (reached, "standing"))
     findings: tuple[Finding, ...] = ()
     if not settled:
-        findings = (Finding("NUM102", "two runs of the swing met other events: what follows them is uncertain"),)
+        findings = (Finding("NUM102", "two runs have different events: later results are uncertain"),)
         bar = math.inf
     energy = max(leg.swing.works().residual for leg in legs)
     exact = motion.ramp is not None

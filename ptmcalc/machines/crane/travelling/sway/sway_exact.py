@@ -15,13 +15,13 @@ from ptmcalc.machines.crane.travelling.sway.reading import failures_of, findings
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """Loads of a ramp from rest or to rest by the elliptic functions of the pendulum in tilted gravity.
+    """Loads of a speed ramp from or to standstill by the elliptic functions of the pendulum in tilted gravity.
 
-        theta_max = 2 atan(a/g) once the ramp lasts half a swing,   sin(A/2) = ((a/(2 g)) sin theta_1)^(1/2)
+        theta_max = 2 atan(a/g) if the ramp lasts at least half a period,   sin(A/2) = ((a/(2 g)) sin theta_1)^(1/2)
         T = M (3 g cos theta + 3 a sin theta - 2 g)
 
-    **Range** a drive that keeps to its ramp; ropes of constant length; no wind on the load, no slope; a below g.
-    **Error** exact for times and angles; loads that hang on pull and weight of the rope at one instant are bounded by
+    **Range** a drive that follows its ramp; ropes of constant length; no wind on the load, no slope; a below g.
+    **Error** exact for times and angles; loads that depend on rope force and wheel load at one instant are bounded by
     the extremes of both.
     **Source** `laws.pendulum.ramp_swing`.
     """

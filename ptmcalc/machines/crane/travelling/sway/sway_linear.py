@@ -13,16 +13,16 @@ from ptmcalc.machines.crane.travelling.sway.reading import failures_of, findings
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """Loads of a start or stop in which the load leaves the plumb line by small angles.
+    """Loads of a start or stop with small sway angles.
 
         L u'' + g u = -L x''        with  x'' imposed by a ramp,   or  m x'' = F - W - M g u/L (against the drive)
 
-    Motors give their mean starting torque until full speed, which they then keep; brakes act after their delay along
-    a straight rise. The ropes get shorter evenly while the load is hoisted.
+    Motors deliver their mean starting torque until full speed and then keep the speed; brakes act after their delay
+    with a linear rise. The rope length decreases linearly while the load is hoisted.
 
     **Range** angles of a few degrees; a motor whose torque does not depend on its speed; one plane.
-    **Error** between events exact, with the rounding told by `numerics.pendulum.linear`; finite angles are the effect
-    `large_sway`, a motor's curve the effect `torque_curve`.
+    **Error** exact between events, with the rounding bound of `numerics.pendulum.linear`; the effect `large_sway`
+    covers finite angles, the effect `torque_curve` a motor curve.
     **Source** pendulum under a moved pivot; `numerics.pendulum.linear`.
     """
     motion = motion_of(spec, scene)
@@ -58,6 +58,6 @@ SWAY_LINEAR: Solver[Travelling, Moving] = Solver(
     gives=MOVING,
     run=run,
     cost=lambda spec, scene, carried, level: 2e-3,
-    source="small swing under a moved or pushed pivot; derived in ptmcalc.numerics.pendulum.linear",
+    source="small-angle sway under a moved or pushed pivot; derived in ptmcalc.numerics.pendulum.linear",
     always=frozenset({SWAY}),
 )

@@ -25,15 +25,15 @@ smaller value narrows it and takes more steps; the second level is near the reso
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """Loads of a start or stop by the equations of crane and load at any angle, from event to event.
+    """Loads of a start or stop from the equations of motion of crane and load at any angle, event-driven.
 
         L theta'' + 2 L' theta' + g sin theta = -x'' cos theta,   (m + m_r) x'' = F - W + T sin theta
 
-    Losses of the gear go by the direction of power at each instant; a motor follows its curve, stage by stage; brakes
-    act through the gear and hold the crane at rest as far as they can.
+    Gear losses depend on the direction of power at each instant; a motor follows its curve, stage by stage; brakes act
+    through the gear and hold the crane at standstill up to their torque.
 
-    **Range** a taut rope without mass, one plane, wheels that do not slide.
-    **Error** the difference of two runs of other steps and orders, and what lies between the looks.
+    **Range** a taut massless rope, one plane, wheels without slip.
+    **Error** the difference of two runs with other steps and orders, plus the sampling error.
     **Source** `numerics.pendulum.swing`.
     """
     done = simulate(spec, scene, TOLERANCES[level])
@@ -60,7 +60,7 @@ def valid(spec: Travelling, scene: Moving) -> Criterion | None:
     """
     motion = motion_of(spec, scene)
     if not motion.load and follows_curve(spec, scene):
-        return Criterion("m/m_t", 1.0, 1.0, "nothing hangs on the rope: give the mass of the hook block", "the file")
+        return Criterion("m/m_t", 1.0, 1.0, "no load is suspended: give the mass of the hook block", "the file")
     if motion.reacts or motion.ramp is not None or not motion.load:
         return None
     return Criterion("M/m_t", 1.0, 1.0, f"it always simulates `{REACTION}`, forced off in the file", "the file")

@@ -15,13 +15,13 @@ from ptmcalc.machines.crane.travelling.sway.moving import motion_of, stalls
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """Start, stop, sway and grip as handbooks write them.
+    """Start, stop, sway and adhesion by handbook formulas.
 
         t = v m_red/(F - W),   theta = 2 a/g,   theta_r = (2 a/g) |sin(omega t/2)|,   H = 2 M a
         k = mu sum N_k/(m a + W)
 
-    **Range** loads that are light beside the crane, starts of half a period or more; wheels that carry alike.
-    **Error** no bound: the mean of the wheels passes where the lightest of them skids.
+    **Range** loads light relative to the crane, starts of half a period or more; equally loaded wheels.
+    **Error** no bound: the mean adhesion may be sufficient although the wheel with the lowest load slips.
     **Source** handbooks of lifting machines.
     """
     motion = motion_of(spec, scene)
