@@ -170,15 +170,8 @@ def check(
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
-    asked = (
-        tuple(scene or ()),
-        accuracy,
-        effects_of(effects),
-        bool(history),
-        shapes,
-        bool(html),
-        ledger or verbose or bool(html),
-    )
+    shown = (bool(history), shapes, bool(html), ledger or verbose or bool(html))
+    asked = (tuple(scene or ()), accuracy, effects_of(effects), *shown)
     sought = ANY if store else choice  # what is kept serves every choice
     options = Options(*asked, seconds_of(budget), repairs, sought, run=not validate_only)
     forms = {chosen, *(target for target, _ in files)}

@@ -29,6 +29,8 @@ class SteadyMotors(Generic[S, C]):
     """motors of each drive by its name, `""` where a machine has only one; empty where one of them has no curve"""
     curve_key: Callable[[S, str], KeyPath]
     """key of the curve of a drive; of the main one for `""`"""
+    resistance: Callable[[S, C], float]
+    """of the whole machine in the steady running of a scene; negative where the load drives it [N]"""
     run: type[C]
     start: type[C]
 
@@ -139,9 +141,10 @@ def steady_reserve_check(code: str, kind: SteadyMotors[S, C]) -> Check[S, C]:
     """The check that all motors together pull or hold their machine in steady running."""
 
     def checks(spec: S, scene: C) -> Iterable[Check[S, C]]:
-        """Where every motor has a curve."""
+        """Where every motor has a curve; whether it would stall or run away is known by the sign of the resistance."""
         if kind.motors(spec) and _checked_in(kind, spec, scene):
-            yield replace(check, each=None)
+            runs = "runs too slowly" if kind.resistance(spec, scene) > 0 else "runs away"
+            yield replace(check, each=None, failure=f"{check.failure}: the {pulled} {runs}")
 
     pulled = kind.pulled
     pull = "By their curves, all motors together pull" if kind.several else "By their curve, the motors pull"
@@ -149,7 +152,7 @@ def steady_reserve_check(code: str, kind: SteadyMotors[S, C]) -> Check[S, C]:
         code=code,
         title="motor torque reserve, steady running",
         question=f"Do the motors pull the {pulled} at its speed, or hold the load that drives it?",
-        failure=f"load exceeds the motor torque: the {pulled} runs too slowly, or runs away",
+        failure="load exceeds the motor torque",
         scenes=kind.scenes,
         loads=("steady_reserve",),
         sense=Sense.AT_LEAST,

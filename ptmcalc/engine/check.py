@@ -66,7 +66,7 @@ class Options:
     figures: bool = False
     """True if figures are requested"""
     ledger: bool = False
-    """whether a run without each effect near its threshold tells what it changes"""
+    """True if a run without each effect near its threshold shows what it changes"""
     budget: float = WORK_BUDGET
     repairs: bool = True
     counting: Choice = ANY
@@ -332,8 +332,7 @@ class _Assembly:
         return replace(report, figures=tuple(figures_of(self.kind, report, self.spec, histories, self._textbooks())))
 
     def _effects(self) -> Iterator[EffectReport]:
-        near = {planned.effect.name for planned in self.settled.near} if self.options.ledger else set()
-        carried = self.settled.carried
+        carried, near = self.settled.carried, self.settled.near if self.options.ledger else []
         for planned in self.settled.plan.effects:
             name = planned.effect.name
             yield EffectReport(
@@ -343,7 +342,7 @@ class _Assembly:
                 forced=planned.forced,
                 criterion=planned.criterion,
                 note=_note(planned, carried),
-                change=self._change(name) if name in near else None,
+                change=self._change(name) if planned in near else None,
             )
 
     def _change(self, name: str) -> Change | None:

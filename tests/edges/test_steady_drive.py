@@ -32,6 +32,7 @@ def test_a_belt_that_drives_its_motor_beyond_breakdown_fails() -> None:
     assert judged(found, "CNV121", "run_loaded").value.value == pytest.approx(breakdown / shaft, rel=1e-9)
     assert judged(found, "CNV122", "run_loaded").value.value == pytest.approx(shaft / rated, rel=1e-9)
     assert verdict(found, "CNV121", "run_loaded") is Verdict.FAIL
+    assert judged(found, "CNV121", "run_loaded").meaning.endswith("the belt runs away")
     assert verdict(found, "CNV122", "run_loaded") is Verdict.FAIL
 
 
@@ -48,6 +49,7 @@ def test_a_belt_that_overloads_its_motor_in_steady_running_fails() -> None:
         force * 0.4 / 24.46 / 0.95 / rated, rel=1e-9
     )
     assert verdict(found, "CNV121", "run_loaded") is Verdict.FAIL
+    assert judged(found, "CNV121", "run_loaded").meaning.endswith("the belt runs too slowly")
     assert verdict(found, "CNV121", "start_empty") is Verdict.PASS
     assert load(found, "power_motor_running", "run_loaded").value > 130e3
 

@@ -16,6 +16,10 @@ def motors_of(spec: ChainDrive) -> dict[str, Motors]:
     return {"": Motors(drive.motor.curve, drive.motor.count, turns, filled(drive.gear.efficiency))}
 
 
+def _resistance(spec: ChainDrive, scene: ChainScene) -> float:
+    return chain_line(spec, Run(load=scene.load)).static_resistance
+
+
 def run(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: int) -> Result:
     """Torque reserve of the motors in steady running, and the driving or braking torque of each motor relative to its
     rated torque.
@@ -28,8 +32,7 @@ def run(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: int
     **Error** exact.
     **Source** derived: equilibrium on the torque curve (`components.steady_drive`).
     """
-    resistance = chain_line(spec, Run(load=scene.load)).static_resistance
-    return steady_loads(motors_of(spec), resistance, spec.speed)
+    return steady_loads(motors_of(spec), _resistance(spec, scene), spec.speed)
 
 
 MOTORS: SteadyMotors[ChainDrive, ChainScene] = SteadyMotors(
@@ -37,6 +40,7 @@ MOTORS: SteadyMotors[ChainDrive, ChainScene] = SteadyMotors(
     several=False,
     motors=motors_of,
     curve_key=lambda spec, name: ("drive", "motor", "curve"),
+    resistance=_resistance,
     run=Run,
     start=Start,
 )

@@ -27,6 +27,11 @@ def motors_of(spec: Conveyor) -> dict[str, Motors]:
     return found if len(found) == len(drives) else {}
 
 
+def _resistance(spec: Conveyor, scene: ConveyorScene) -> float:
+    line = running(spec, Run(load=scene.load))
+    return line.static_resistance + line.tail_pull
+
+
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
     """Torque reserve of all drives in steady running, and the driving or braking torque of each motor relative to its
     rated torque.
@@ -39,8 +44,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     **Error** exact; with different curves one part in a million.
     **Source** derived: equilibrium on the torque curves (`components.steady_drive`).
     """
-    line = running(spec, Run(load=scene.load))
-    return steady_loads(motors_of(spec), line.static_resistance + line.tail_pull, spec.speed)
+    return steady_loads(motors_of(spec), _resistance(spec, scene), spec.speed)
 
 
 def _curve_key(spec: Conveyor, name: str) -> KeyPath:
@@ -53,6 +57,7 @@ MOTORS: SteadyMotors[Conveyor, ConveyorScene] = SteadyMotors(
     several=True,
     motors=motors_of,
     curve_key=_curve_key,
+    resistance=_resistance,
     run=Run,
     start=Start,
 )

@@ -60,7 +60,7 @@ WEAK: OneCheck = only(_raised)(
     Check(
         code="HST114",
         title="starting torque reserve, lower limit",
-        question="Does the mean starting torque exceed the load torque with reserve?",
+        question="Does the starting torque exceed the load torque with reserve?",
         failure="starting torque reserve is too small",
         limit_state=LimitState("hoist motor stalls", 1),
         scenes=frozenset({Run, Start}),
@@ -70,8 +70,8 @@ WEAK: OneCheck = only(_raised)(
         needs=_gearbox,
         blame=lambda spec, scene, loads: _torque_key(spec, scene),
         repair=_torque_repair,
-        what="The mean starting torque is at least the required reserve times the torque of the suspended load. The"
-        " losses increase this load torque.",
+        what="The mean starting torque is at least the required reserve times the torque of the suspended load with"
+        " losses. If the torque curve is below the load torque at any speed, its minimum counts instead.",
         why="A motor without reserve does not lift the suspended load. It stalls, overheats, or lets the load descend.",
         formula="M_mean/(M_d/(u eta)) >= 1.4",
         source="power balance of the gearbox; handbooks of lifting machines",

@@ -199,10 +199,9 @@ def _slack_at(course: Course) -> float:
 # -- a whole solver run ---------------------------------------------------------------------------------------------
 
 
-def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result:
-    """Loads, findings and histories of a scene."""
-    case = rope_case.case(spec, scene)
-    window, finer = case.window, FINENESS[level]
+def _until_settled(spec: Hoist, scene: Moving, rope: Rod | Hauled, case: Case, finer: float) -> tuple[Course, float]:
+    """A run until the brake holds or the load has lifted off, and its window [s]."""
+    window = case.window
     course = play(spec, scene, rope, window, finer)
     for _ in range(_LONGER if case.holds else 0):
         if course.played.mode.turn == 0 or math.isfinite(course.played.slack_at):
@@ -215,6 +214,13 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
             break
         window = longer
         course = play(spec, scene, rope, window, finer)
+    return course, window
+
+
+def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result:
+    """Loads, findings and histories of a scene."""
+    case, finer = rope_case.case(spec, scene), FINENESS[level]
+    course, window = _until_settled(spec, scene, rope, case, finer)
     case = replace(case, window=window)
     other = play(spec, scene, rope, window, _COMPARED * finer)
     own, beside = readings(scene, case, course), readings(scene, case, other)
