@@ -507,7 +507,7 @@ def test_solve_of_a_faulty_file_exits_2() -> None:
         ("sag", ("Part of: belt_wave",)),
         ("characteristics", ("Simulated effects: belt_wave", "**Source**")),
         ("first_wave", ("never decides",)),
-        ("SPC106", ("missing unit", "What to do:")),
+        ("SPC106", ("missing unit", "Corrective action:")),
     ],
 )
 def test_explain_has_formula_range_error_and_source(name: str, parts: tuple[str, ...]) -> None:

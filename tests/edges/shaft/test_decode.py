@@ -46,7 +46,7 @@ def test_the_brake_that_ends_it() -> None:
         ("decode-tiny.csv", "run_out", "the record lasts 9.9e-299 s"),
         ("decode-tiny.csv", "run_up", "the record lasts 9.9e-299 s"),
         ("decode-tiny.csv", "brake", "the record lasts 9.9e-299 s"),
-        ("decode-rising.csv", "run_out", "shows no coasting"),
+        ("decode-rising.csv", "run_out", "shows no run-out"),
         ("decode-rising.csv", "brake", "shows no braking"),
         ("decode-coast.csv", "run_up", "shows no run-up"),
     ],
