@@ -70,4 +70,4 @@ def python(*arguments: str | Path, cwd: Path = ROOT, env: Mapping[str, str] | No
 @cache
 def report_of_file(path: str) -> FileReport:
     """The report of a file of the project, named from its top folder; made once, as it is immutable."""
-    return check(load_file(ROOT / path, path), Options())
+    return check(load_file(ROOT / path, path), Options(ledger=True))

@@ -494,7 +494,7 @@ class TestDisagreement:
     def test_a_motor_that_starts_with_less_than_its_rated_torque(self, power: str) -> None:
         found = report_of(changed(CRANE, motor__power=power)).diagnostics
         assert [one.code for one in found] == (["SPC201"] if power == "2200 kW" else [])
-        assert all("240 N*m in the mean" in one.message and "14.39 kN*m" in one.message for one in found)
+        assert all("mean starting torque of 240 N*m" in one.message and "14.39 kN*m" in one.message for one in found)
 
     def test_the_modulus_of_wire(self) -> None:
         (found,) = report_of(changed(CRANE, rope__modulus="210 GPa")).diagnostics

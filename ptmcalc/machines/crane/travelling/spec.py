@@ -53,7 +53,7 @@ class Bridge(Fragment):
     """without the trolley"""
     span: PositiveSpan
     """from rail A to rail B"""
-    centre: Annotated[PositiveSpan | None, Absent("symmetric bridge")] = None
+    centre: Annotated[PositiveSpan | None, Absent("a bridge symmetric about its centre")] = None
     """of gravity, from rail A; default: middle"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
