@@ -264,7 +264,7 @@ def warnings_of(text: str) -> list[Diagnostic]:
     ("edits", "path", "words"),
     [
         ((("lift: 22 m", "lift: -6 m"),), "route.sections[1].curve_radius", "same slope"),
-        ((("curve_radius: 800 m", "curve_radius: 5 km"),), "route.sections[1].curve_radius", "200 m long"),
+        ((("curve_radius: 800 m", "curve_radius: 5 km"),), "route.sections[1].curve_radius", "a length of 200 m"),
     ],
     ids=["nothing curves", "no room"],
 )

@@ -124,7 +124,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "half a starting torque": (
         {"motor__mean_starting_torque": None, "motor__largest_starting_torque": "9 N*m", "cycle__start_time": "4 s"},
         "SPC113",
-        "go together",
+        "are given together",
     ),
     "power without speed": ({"motor__speed": None}, "SPC113", "the rated torque is power over speed"),
     "two start inputs": ({"cycle__start_time": "4 s", "cycle__start_angle": "5 deg"}, "SPC113", "not both"),

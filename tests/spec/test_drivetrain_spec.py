@@ -280,14 +280,14 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         one_edit("rail: {from: wheel, to: crane", "rail: {from: crane, to: wheel"),
         "gears.rail.radius",
         "radius:",
-        "`from` turns and `to` travels",
+        "`from` rotates and `to` travels",
         "swap `from` and `to`",
     ),
     "a radius between shafts": (
         one_edit("rail: {from: wheel, to: crane", "rail: {from: wheel, to: motor"),
         "gears.rail.radius",
         "radius:",
-        "`from` turns and `to` travels",
+        "`from` rotates and `to` travels",
         "write a `ratio`",
     ),
     "a ratio between turning and travelling": (

@@ -140,7 +140,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cosine: 31 kg",
         "inertia.terms",
         "terms:",
-        "falls to -1.0",
+        "decreases to -1.0",
         "above 0 at every angle",
     ),
     "angles of an inertia that fall": (
@@ -294,7 +294,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle",
         "cycle_angle:",
         "the slider-crank has no period of 540 deg",
-        "`360 deg` for most",
+        "usually `360 deg`",
     ),
     "a harmonic that does not repeat itself": (
         file(HARMONICS, DRIVE),
@@ -303,7 +303,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle",
         "cycle_angle:",
         "the harmonic of order 2 has no period of 120 deg",
-        "`360 deg` for most",
+        "usually `360 deg`",
     ),
     "an unbalance that does not repeat itself": (
         file(CONSTANT, DRIVE, WEIGHT),
@@ -312,7 +312,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle",
         "cycle_angle:",
         "the unbalance has no period of 180 deg",
-        "`360 deg` for most",
+        "usually `360 deg`",
     ),
     "a wave of the weights that does not repeat itself": (
         file(CONSTANT, DRIVE, WAVE),
@@ -321,7 +321,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle",
         "cycle_angle:",
         "the harmonic of order 3 has no period of 100 deg",
-        "`360 deg` for most",
+        "usually `360 deg`",
     ),
     "an efficiency that nothing uses": (
         file(CONSTANT, DRIVE),
@@ -329,7 +329,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "efficiency: 0.9, reverse_efficiency: 0.8, braking: multiplies}",
         "drive.gear.reverse_efficiency",
         "reverse_efficiency",
-        "`braking: multiplies` takes `efficiency` in both directions",
+        "`braking: multiplies` uses `efficiency` in both directions",
         "`braking: divides`",
     ),
     "a brake that is not there": (
