@@ -122,7 +122,7 @@ def test_the_table_names_every_command_and_no_other() -> None:
 OPTIONS = sorted(
     set(
         re.findall(
-            r"(--?[a-z][a-z-]*)[ =`]", COMMANDS_PAGE.partition("# Commands")[2] + README.partition("## Commands")[2]
+            r"(?<!\w)(--?[a-z][a-z-]*)[ =`]", COMMANDS_PAGE.partition("# Commands")[2] + README.partition("## Commands")[2]
         )
     )
 )
@@ -139,7 +139,7 @@ def test_an_option_the_readme_names_exists(option: str) -> None:
 
 def test_the_table_of_costs_is_of_the_files_there_are() -> None:
     """Its structure, not its seconds: a line a file, in the columns `cost --all` writes today."""
-    section = ACCURACY.partition("\n## The price of every design file\n")[2]
+    section = ACCURACY.partition("\n## Cost of every design file\n")[2]
     head, rule, *lines = [line for line in section.splitlines() if line.startswith("|")]
     short = README.partition("\n## Cost of accuracy\n")[2].partition("\n## ")[0]
     shown = [line for line in short.partition("\n\nSix problems")[0].splitlines() if line.startswith("|")]

@@ -136,7 +136,7 @@ def ratio(peer_found: Peer, own: list[Ours]) -> float | None:
     return peer_found.units / min(equal) if equal and math.isfinite(peer_found.error) else None
 
 
-COLUMNS = ("problem", "ours", "error", "units", "ms at 16 ms a unit", "target", *METHODS)
+COLUMNS = ("problem", "ptmcalc", "error", "units", "ms at 16 ms a unit", "target", *METHODS)
 
 
 def rows(problem: Problem, repeats: int = REPEATS) -> list[list[str]]:
