@@ -26,7 +26,7 @@ def said(kind: str, seed: int, code: str) -> str:
 def test_effects_without_a_bound_are_named_and_what_keeps_their_solvers_out() -> None:
     reason = said("conveyor", 5, "CNV102")
     assert "`belt_safety_min`: no error bound, `rigid` neglects `belt_wave`, `slip`" in reason
-    assert "`characteristics` cannot be used: static resistance over the drive's force" in reason
+    assert "`characteristics` cannot be used: static resistance / drive force" in reason
 
 
 def test_a_load_that_nobody_gives_names_who_might() -> None:
