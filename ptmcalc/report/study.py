@@ -71,7 +71,7 @@ def sweep_table(
     ]
     text += listing(columns, rows, width=width)
     if found:
-        text += "\nwhere they turn\n"
+        text += "\nlimits of the verdicts\n"
         rows_of = [(f"{one.code} {one.element}".strip(), one.scene, one.key.name, _turn(one)) for one in found]
         text += listing(("check", "scene", "key", "verdicts"), rows_of, width=width)
     return text + "".join(f"note: {note}\n" for note in points.notes)

@@ -93,7 +93,7 @@ def test_verdicts_turn_where_solve_says(file: Path) -> None:
     table = swept("--vary", "takeup.tension=10 kN:40 kN:301", form="table")
     assert table.status == 0
     assert "yard.yaml:25  takeup.tension: 10 kN to 40 kN, now 30 kN" in table.out
-    assert "passes from" in table.out
+    assert "limits of the verdicts" in table.out
     assert f"from {one['least'] / 1e3:.2f} kN" in table.out
 
 
