@@ -61,6 +61,7 @@ _PIECES = 64
 """Chords of a smooth rise; a numerical choice. A cosine rise deviates by at most 1.5e-4 of its end value, a parabolic
 one by less. The error falls with the square of the number; time grows with it. A run with half as many tells it."""
 _CURVED = ("cosine", "parabolic")
+"""Shapes of a rise that chords replace; steps, ramps and tables are straight already."""
 _LOOKED_AT = 2001
 """Speeds at which the maximum of a torque curve is searched; a numerical choice. More find a narrow maximum more
 closely and take longer."""
