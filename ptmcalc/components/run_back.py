@@ -51,10 +51,15 @@ def rollback_scene(
         standstill: type of a `backstop` scene.
         may_run_back: whether a scene ends at rest or begins with less than the full torque.
     """
-    loaded = [one for one in scenes if one.load in loads]
-    if any(isinstance(one, standstill) for one in loaded):
-        return None
-    return next((one for one in loaded if may_run_back(one)), None)
+    found = None
+    for one in scenes:
+        if one.load not in loads:
+            continue
+        if isinstance(one, standstill):
+            return None
+        if found is None and may_run_back(one):
+            found = one
+    return found
 
 
 def checked_elsewhere(asks_for_hold: Callable[[S, C], bool]) -> Callable[[S, C], Criterion]:

@@ -47,7 +47,7 @@ def polygon_force(ratio: float, damping: float, teeth: int = 8) -> tuple[float, 
 
 def test_three_times_the_mass_times_the_acceleration_is_no_bound() -> None:
     found = [polygon_force(ratio, 0.01)[0] for ratio in (1 / 20, 1 / 3, 1.0)]
-    says("Polygon force `3 m a_max`", "{:.1f} at a twentieth, {:.0f} at a third, {:.0f} at once".format(*found))
+    says("Polygon force `3 m a_max`", "{:.1f} at 1/20, {:.0f} at 1/3, {:.0f} at the first natural frequency".format(*found))
     pulls, sinks = (
         brentq(lambda zeta, of=of: max(of(polygon_force(r, zeta)) for r in (0.97, 0.98, 0.99, 1.0)) - 3, 0.05, 0.2)
         for of in (max, lambda pair: -min(pair))
@@ -111,7 +111,7 @@ def test_a_joint_is_felt_before_its_swing_is_over() -> None:
     (step, behind_step), (gap, behind_gap) = over_a_joint(3.0, 1.0, 1), over_a_joint(2.0, -1.0, 2)
     assert max(behind_step, behind_gap) < 1e-6
     says(
-        "Rail joint by the swing behind it",
+        "Rail joint by the residual oscillation",
         f"nothing against {step:.2f} on a step at alpha = 3, against {gap:.2f} in a gap at 2",
         f"at most {most[0]:.2f} and {most[1]:.2f}",
     )
@@ -171,7 +171,7 @@ def run_up(factor: float) -> float:
 def test_run_up_without_the_losses_of_the_gear() -> None:
     right = run_up(0.94)
     assert right == pytest.approx(0.882493, rel=1e-5)
-    says("Run-up steps without the gear's efficiency", f"{100 * (1 - run_up(1.0) / right):.0f} % short")
+    says("Run-up steps without the gear efficiency", f"{100 * (1 - run_up(1.0) / right):.0f} % too short")
 
 
 def climb(modulus: float, falls: int, amplitude: float) -> tuple[float, float]:
@@ -191,7 +191,7 @@ def test_the_paper_on_winding() -> None:
     jump = speed * math.sqrt(3) / 2 * rope / (1 / 3 - 1 / 96)  # the pulse comes to the jump of the rope's speed
     right, wire = climb(1.05e11, 4, jump), climb(2.1e11, 4, jump)
     assert wire[0] / paper[0] == pytest.approx(4)
-    says("Multilayer winding: k without the tackle", "frequency four times too low on four falls")
+    says("Multilayer winding: k without the reeving", "frequency four times too low on four falls")
     says("The same: 9200 in the response", f"{100 * (96**2 / 9200 - 1):.2f} %")
-    told = f"{100 * paper[1]:.2f} % by them, {100 * right[1]:.2f} % put right"
+    told = f"{100 * paper[1]:.2f} % by them, {100 * right[1]:.2f} % corrected"
     says("The same: dynamic stress 7 to 18 % of the mean", told)

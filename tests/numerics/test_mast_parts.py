@@ -136,9 +136,9 @@ def test_what_nothing_is_told_of_is_not_there() -> None:
 @pytest.mark.parametrize("share", [0.25, 0.75])
 def test_sizes_below_one_are_sizes(share: float) -> None:
     Column((Segment(share, share, share),), (Lump(share / 2, share, share),), share, share, share, share)
-    with pytest.raises(NumericsError, match="is on it"):
+    with pytest.raises(NumericsError, match="on the mast"):
         Column((Segment(share, 1.0),), (Lump(share * (1 + 1e-9), 1.0),))
-    with pytest.raises(NumericsError, match="is on it"):
+    with pytest.raises(NumericsError, match="on the mast"):
         Column((Segment(share, 1.0),), (Lump(-1e-9, 1.0),))
 
 
