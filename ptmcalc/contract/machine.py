@@ -1,7 +1,7 @@
 """The manifest of a machine kind: the interface of a kind to the rest of the program."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, Generic, TypeVar
 
@@ -24,6 +24,19 @@ Piece = TypeVar("Piece")
 
 
 @dataclass(frozen=True, slots=True)
+class Use:
+    """Where an assumed value is used: its ends are tried only there."""
+
+    scenes: frozenset[type[Scene]] = frozenset()
+    """types of the scenes; empty for all"""
+    loads: frozenset[str] = frozenset()
+    """families of the loads; empty for all"""
+
+
+EVERYWHERE = Use()
+
+
+@dataclass(frozen=True, slots=True)
 class Assumption(Generic[S]):
     """A value that is filled in if the file does not give it, with the interval that contains the actual value.
 
@@ -35,10 +48,7 @@ class Assumption(Generic[S]):
     value: Callable[[S], float | None]
     interval: Callable[[S], Interval]
     source: str
-    scenes: frozenset[type[Scene]] = frozenset()
-    """types of the scenes that use it; empty for all"""
-    loads: frozenset[str] = frozenset()
-    """loads that depend on it; empty for all"""
+    use: Use = EVERYWHERE
 
 
 def nothing_to_say(spec: MachineSpec) -> Iterable[Finding]:
@@ -84,6 +94,9 @@ class MachineKind(Generic[S]):
 
     assumed: Callable[[S], Iterable[Assumption[S]]] | None = None
     """for a kind with parts that a machine has several times: the assumptions of one machine, instead of the list"""
+
+    uses: Mapping[str, Use] = field(default_factory=dict, hash=False)
+    """by key, as `base.column`: where the constant that its declaration assumes is used; everywhere if not named"""
 
     seconding: Callable[[], tuple[AnySolver, ...]] = no_witnesses
     """reads solvers of another method that no plan offers: `cost` holds what the planned ones find against theirs"""

@@ -10,7 +10,7 @@ from ptmcalc.base.units import Quantity
 from ptmcalc.contract.check import AnyCheck, Sense
 from ptmcalc.contract.effect import Criterion, EffectState
 from ptmcalc.contract.figure import FigureReport
-from ptmcalc.contract.result import Event, History, LoadInfo
+from ptmcalc.contract.result import Event, History, LoadInfo, family
 from ptmcalc.spec.scene import Scene, type_of
 
 _INVISIBLE = 1e-6
@@ -204,7 +204,7 @@ class AssumedReport:
     scenes: frozenset[str] = frozenset()
     """types of the scenes that use it; empty for all"""
     loads: frozenset[str] = frozenset()
-    """loads that depend on it; empty for all"""
+    """families of the loads that depend on it; empty for all"""
 
     def read_in(self, scene: Scene) -> bool:
         """Whether a scene reads the value."""
@@ -213,7 +213,7 @@ class AssumedReport:
     def read_by(self, check: AnyCheck) -> bool:
         """Whether a check can depend on the value."""
         scenes = not self.scenes or not self.scenes.isdisjoint(map(type_of, check.scenes))
-        return scenes and (not self.loads or not self.loads.isdisjoint(check.loads))
+        return scenes and (not self.loads or not self.loads.isdisjoint(map(family, check.loads)))
 
 
 @dataclass(frozen=True, slots=True)

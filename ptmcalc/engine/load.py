@@ -15,7 +15,7 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.base.span import KeyPath, dotted
 from ptmcalc.base.units import RATIO, Quantity
 from ptmcalc.base.words import quote
-from ptmcalc.contract.machine import AnyKind
+from ptmcalc.contract.machine import EVERYWHERE, AnyKind, Use
 from ptmcalc.contract.report import AssumedReport
 from ptmcalc.contract.result import Finding
 from ptmcalc.engine.registry import is_kind, kind_names, load_kind, load_type
@@ -180,20 +180,26 @@ def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedRe
     """The spec with every assumption in place, and the list of them."""
     assumed = []
     for path, declared, measure in constants_of(spec):
-        report = AssumedReport(
-            path, declared.value, measure.quantity, Interval(declared.low, declared.high), declared.source
-        )
-        assumed.append(report)
+        interval = Interval(declared.low, declared.high)
+        use = kind.uses.get(dotted(path), EVERYWHERE)
+        assumed.append(_report(path, declared.value, measure.quantity, interval, declared.source, use))
         spec = spec.with_value(path, declared.value)
     for assumption in kind.assumptions_of(spec):
         if spec.value_at(assumption.path) is not None:
             continue
         value = assumption.value(spec)
         if value is not None:
-            named = (assumption.path, value, assumption.quantity, assumption.interval(spec), assumption.source)
-            assumed.append(AssumedReport(*named, frozenset(map(type_of, assumption.scenes)), assumption.loads))
+            interval = assumption.interval(spec)
+            stated = (assumption.path, value, assumption.quantity, interval, assumption.source)
+            assumed.append(_report(*stated, assumption.use))
             spec = spec.with_value(assumption.path, value)
     return spec, tuple(assumed)
+
+
+def _report(
+    path: KeyPath, value: float, quantity: Quantity, interval: Interval, source: str, use: Use
+) -> AssumedReport:
+    return AssumedReport(path, value, quantity, interval, source, frozenset(map(type_of, use.scenes)), use.loads)
 
 
 def _kind_of(document: Document, data: Mapping[str, Any]) -> tuple[AnyKind | None, list[Diagnostic]]:

@@ -212,7 +212,7 @@ def test_without_a_computed_sample_nothing_is_said() -> None:
         ("  takeup.tension: {plus: 1 m}\n", "1:26", "`tolerances.takeup.tension.plus`: `1 m` is a length, not a force"),
         ("  takeup.tension: {plus: 1}\n", "1:26", "`1` has no unit"),
         ("  takeup.tension: {plus: -1 kN}\n", "1:26", "out of range: it must be at least 0 N"),
-        ("  takeup.tension: {normal: {sd: 0 kN}}\n", "1:33", "out of range: the value must be greater than 0 N"),
+        ("  takeup.tension: {normal: {sd: 0 kN}}\n", "1:33", "out of range: it must be greater than 0 N"),
         ("  takeup.tension: {normal: {sd: .nan}}\n", "1:33", "`.nan` is not a finite number"),
         ("  takeup.tension: {normal: {}}\n", "1:20", "`sd` is missing"),
         ("  takeup.tension: {normal: {sd: 1 kN, men: 2 kN}}\n", "1:39", "unknown key"),

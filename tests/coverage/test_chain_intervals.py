@@ -75,7 +75,7 @@ def trial_of(number: int, data: dict[str, Any] | None = None) -> Trial:
     return tried(number, rng, KIND, spec, scene, claims, truth, LIMITS)
 
 
-@pytest.fixture(scope="module", params=numbers(60))
+@pytest.fixture(scope="module", params=numbers(30))
 def trials(request: pytest.FixtureRequest) -> list[Trial]:
     return [trial_of(number) for number in request.param]
 

@@ -88,7 +88,7 @@ def wave_trial(number: int) -> Trial:
     return tried(number, rng, KIND, spec, scene, claims, truth, [LIMIT])
 
 
-@pytest.fixture(scope="module", params=numbers(40))
+@pytest.fixture(scope="module", params=numbers(20))
 def waves(request: pytest.FixtureRequest) -> list[Trial]:
     return [wave_trial(number) for number in request.param]
 
@@ -173,7 +173,7 @@ def stop_trial(number: int) -> Trial:
     return tried(number, rng, KIND, spec, scene, claims, truth, [LIMIT])
 
 
-@pytest.fixture(scope="module", params=numbers(40))
+@pytest.fixture(scope="module", params=numbers(20))
 def stops(request: pytest.FixtureRequest) -> list[Trial]:
     return [stop_trial(number) for number in request.param]
 
@@ -268,7 +268,7 @@ def breakaway_trial(number: int) -> Trial:
     return tried(number, rng, KIND, spec, scene, claims, truth, [LIMIT])
 
 
-@pytest.fixture(scope="module", params=numbers(60))
+@pytest.fixture(scope="module", params=numbers(30))
 def loose(request: pytest.FixtureRequest) -> list[Trial]:
     return [breakaway_trial(number) for number in request.param]
 

@@ -70,7 +70,7 @@ REFERENCE = 3e-9
 POSITIONS = 1e-12
 """How well it knows a position, as a share of the way a train has turned: ten times what it asks of its steps."""
 SEED = 20261122
-ALWAYS = {"linear": 60, "play": 36, "motor": 30}
+ALWAYS = {"linear": 30, "play": 18, "motor": 15}
 SAMPLES = [
     *(pytest.param((sort, count), id=f"{sort}-some-{count}") for sort, count in ALWAYS.items()),
     *(pytest.param((sort, MACHINES), id=f"{sort}-all-{MACHINES}", marks=pytest.mark.study) for sort in SORTS),

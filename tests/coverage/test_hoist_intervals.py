@@ -26,6 +26,7 @@ from support.bars import (
 from support.hoist_ode import Machine, Seen
 from support.hoists import hoist_of
 from support.machines import report_of, scene_of
+from support.turns import first_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import NOTHING, Estimate
@@ -245,7 +246,7 @@ def test_the_ladder_never_says_the_opposite(tried_hoists: list[Trial]) -> None:
     assert min(said.count(Verdict.PASS), said.count(Verdict.FAIL)) > 0.1 * len(tried_hoists)
 
 
-@pytest.mark.parametrize("seed", range(21, 33))
+@pytest.mark.parametrize("seed", first_of(4, range(21, 33)))
 def test_a_rope_that_gets_shorter_stays_in_the_bars(seed: int) -> None:
     found = compared(seed, 1e-9, seed % 2 == 1, 1, shortens=True)
     assert [name for name, missed, _ in found if missed] == []

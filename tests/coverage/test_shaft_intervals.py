@@ -63,8 +63,8 @@ REFERENCE = 3e-9
 SEED = 20261124
 Scenes = dict[str, list[Trial]]
 SAMPLES = [
-    pytest.param(("gentle", 10), id="gentle-some"),
-    pytest.param(("lively", 10), id="lively-some"),
+    pytest.param(("gentle", 5), id="gentle-some"),
+    pytest.param(("lively", 5), id="lively-some"),
     *(pytest.param((sort, 100), id=f"{sort}-all", marks=pytest.mark.study) for sort in SORTS),
 ]
 

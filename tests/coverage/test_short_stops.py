@@ -25,7 +25,7 @@ LIMITS = (
     Limit("stop_distance", ("checks", "stop_distance"), least=0.001),
     Limit("stop_time", ("checks", "stop_time"), least=0.001),
 )
-MACHINES, SEED = 24, 20261123
+MACHINES, SEED = 12, 20261123
 ELEMENTS = 40
 
 

@@ -14,7 +14,7 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 
 SEED = int(os.environ.get("PTMCALC_SEED", "37"))
-NUMBER = 20
+NUMBER = 2
 
 Runs = Iterator[tuple[str, dict[str, Estimate]]]
 

@@ -19,7 +19,7 @@ from ptmcalc.engine.load import load_text
 
 Data = dict[str, Any]
 SEED = int(os.environ.get("PTMCALC_SEED", "43"))
-NUMBER = 6
+NUMBER = 3
 
 
 def _template(label: str, scene: Data, **changes: Any) -> Data:

@@ -122,7 +122,8 @@ def test_the_table_names_every_command_and_no_other() -> None:
 OPTIONS = sorted(
     set(
         re.findall(
-            r"(?<!\w)(--?[a-z][a-z-]*)[ =`]", COMMANDS_PAGE.partition("# Commands")[2] + README.partition("## Commands")[2]
+            r"(?<!\w)(--?[a-z][a-z-]*)[ =`]",
+            COMMANDS_PAGE.partition("# Commands")[2] + README.partition("## Commands")[2],
         )
     )
 )

@@ -47,7 +47,10 @@ def polygon_force(ratio: float, damping: float, teeth: int = 8) -> tuple[float, 
 
 def test_three_times_the_mass_times_the_acceleration_is_no_bound() -> None:
     found = [polygon_force(ratio, 0.01)[0] for ratio in (1 / 20, 1 / 3, 1.0)]
-    says("Polygon force `3 m a_max`", "{:.1f} at 1/20, {:.0f} at 1/3, {:.0f} at the first natural frequency".format(*found))
+    says(
+        "Polygon force `3 m a_max`",
+        "{:.1f} at 1/20, {:.0f} at 1/3, {:.0f} at the first natural frequency".format(*found),
+    )
     pulls, sinks = (
         brentq(lambda zeta, of=of: max(of(polygon_force(r, zeta)) for r in (0.97, 0.98, 0.99, 1.0)) - 3, 0.05, 0.2)
         for of in (max, lambda pair: -min(pair))

@@ -7,11 +7,12 @@ import pytest
 from support.machines import changed, loaded, report_of
 from support.slewing import YARD
 from support.slewing_samples import absurd_crane
+from support.turns import first_of
 
 from ptmcalc.engine.check import Options, check
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", first_of(12, range(60)))
 def test_an_absurd_crane_gets_numbers_or_a_finding(seed: int) -> None:
     read = loaded(absurd_crane(np.random.default_rng(seed)))
     report = check(read, Options(repairs=False, budget=2.0))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import yaml
 from support.travelling import crane, scene_report
+from support.turns import first_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.engine.check import Options, check
@@ -61,7 +62,7 @@ def absurd_crane(rng: np.random.Generator) -> dict[str, Any]:
     return data
 
 
-@pytest.mark.parametrize("seed", range(16))
+@pytest.mark.parametrize("seed", first_of(6, range(16)))
 def test_absurd_sizes_through_a_whole_check(seed: int) -> None:
     data = absurd_crane(np.random.default_rng([SEED, seed]))
     with warnings.catch_warnings():

@@ -1,4 +1,4 @@
-"""Which part of many inputs a run takes: another one at every commit, all of them in the nightly run."""
+"""Which of many inputs a run takes: the first, or another part at every commit; the nightly run takes all of them."""
 
 import os
 import subprocess
@@ -27,3 +27,8 @@ def in_turn(parts: Sequence[Any]) -> list[Any]:
     """Parameters of a test: the part whose turn it is, and the others as a study."""
     turn = commit() % len(parts)
     return [pytest.param(part, marks=() if k == turn else pytest.mark.study) for k, part in enumerate(parts)]
+
+
+def first_of(count: int, inputs: Sequence[Any]) -> list[Any]:
+    """Parameters of a test: the first inputs, and the others as a study."""
+    return [*inputs[:count], *(pytest.param(one, marks=pytest.mark.study) for one in inputs[count:])]

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
-from ptmcalc.contract.machine import Assumption
+from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start, Stopping
@@ -88,7 +88,7 @@ _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
         lambda spec: 1.2 if _has(spec, Start) else None,
         lambda spec: Interval(1.0, 1.5),
         "common practice: 1.2 to 1.5 times the running resistance",
-        frozenset({Start}),
+        Use(scenes=frozenset({Start})),
     ),
     Assumption(
         ("layout", "resistance", "stop_factor"),

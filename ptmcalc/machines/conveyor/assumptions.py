@@ -7,7 +7,7 @@ from dataclasses import replace
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.machine import Assumption
+from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
 from ptmcalc.machines.conveyor.model import load_line_mass
@@ -71,7 +71,7 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
         lambda spec: 1.2,
         lambda spec: Interval(1.0, 1.5),
         "common practice: 1.2 to 1.5 times the running resistance",
-        frozenset({Start}),
+        Use(scenes=frozenset({Start})),
     ),
 )
 
@@ -120,7 +120,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         lambda spec: 1.0 if _stops(spec) else None,
         lambda spec: Interval(_LIGHT_RUNNING, 1.0),
         "DIN 22101: f from 0.016 in good to 0.027 in poor conditions; a lightly running belt stops later",
-        frozenset({Stop, EmergencyStop, Coast}),
+        Use(scenes=frozenset({Stop, EmergencyStop, Coast})),
     ),
     Assumption(
         ("resistance", "rest_factor"),
@@ -128,7 +128,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         lambda spec: AT_REST if any(asks_for_hold(spec, scene) for scene in spec.all_scenes) else None,
         lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
         "practice for backstops: half of the running resistance of the idlers, none of loading points and cleaners",
-        loads=frozenset({"backstop_torque"}),
+        Use(loads=frozenset({"backstop_torque"})),
     ),
     Assumption(
         ("takeup", "mass"),

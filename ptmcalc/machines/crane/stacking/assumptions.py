@@ -1,16 +1,30 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.components.travel_drive import TravelDrive
-from ptmcalc.contract.machine import Assumption
+from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.machines.crane.stacking.keys.drives import ROPE_MODULUS, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import StackerScene
+from ptmcalc.machines.crane.stacking.scenes import (
+    Brake,
+    ForkCaught,
+    HoistScene,
+    ObstacleScene,
+    RailScene,
+    StackerScene,
+    Start,
+)
 from ptmcalc.machines.crane.stacking.spec import Stacker
+
+USES: Mapping[str, Use] = {
+    "carriage.rollers.lever_arm": Use(scenes=frozenset({HoistScene})),
+    "carriage.rollers.pin_friction": Use(scenes=frozenset({HoistScene})),
+    "base.height": Use(loads=frozenset({"stability_reserve"})),
+}
 
 
 def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
@@ -22,6 +36,7 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: 0.98,
             lambda spec: Interval(0.97, 0.985),
             "sheaves on rolling bearings 0.98 to 0.985, on plain bearings 0.95 to 0.97",
+            Use(scenes=frozenset({HoistScene, ForkCaught})),
         )
     if isinstance(spec, RackStacker) and any(scene.type == "rail" for scene in spec.all_scenes):
         yield Assumption(
@@ -30,6 +45,7 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: 10.0,
             lambda spec: Interval(5.0, 20.0),
             "cranes on wheels and rails oscillate vertically at 5 to 20 Hz",
+            Use(scenes=frozenset({RailScene})),
         )
     yield from _of_the_hoist(spec)
     yield from _of_the_column(spec)
@@ -50,6 +66,7 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
                     lambda spec: 0.0,
                     lambda spec: Interval(0.0, 0.4),
                     "brakes released by a thruster close within 0.2 to 0.4 s",
+                    Use(scenes=frozenset({Brake})),
                 )
     if isinstance(spec, OverheadStacker) and spec.rotation is not None:
         tenth = 0.1 * spec.rotation.driving_torque
@@ -76,6 +93,7 @@ def _resistance(spec: Stacker, key: str) -> Assumption[Stacker]:
         lambda spec: 0.0,
         lambda spec: Interval(0.0, 0.01 * weight),
         "resistance of steel wheels with rolling bearings: 0.5 to 1 % of the weight",
+        Use(scenes=frozenset({Start, Brake, ObstacleScene})),
     )
 
 
@@ -89,6 +107,7 @@ def _of_the_hoist(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: ROPE_MODULUS,
             lambda spec: Interval(90e9, 120e9),
             "six-strand ropes on their metallic area: 90 GPa new, 120 GPa after some time (EN 12385)",
+            Use(scenes=frozenset({ForkCaught})),
         )
     if drive is not None and drive.inertia is not None:
         yield Assumption(
@@ -107,6 +126,7 @@ def _of_the_hoist(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: weight,
             lambda spec: Interval(weight, 2.5 * weight),
             "the stall force of hoist motors is 1 to 2.5 times the force of the rated load",
+            Use(scenes=frozenset({ForkCaught})),
         )
 
 
@@ -130,6 +150,7 @@ def _of_the_column(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: modulus,
             lambda spec: Interval(modulus / 2, modulus),
             "box and frame masts: strength across the aisle 0.5 to 1 times that along the aisle",
+            Use(loads=frozenset({"column_stress"})),
         )
     if modulus is not None and second is not None:
         least = modulus**2 / second  # of two flanges, all of their area at the outer edges
@@ -139,6 +160,7 @@ def _of_the_column(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: 1.6 * least,
             lambda spec: Interval(least, 3 * least),
             "W^2/J is the minimum area of a section with both; 1.6 times that area for a box, 3 times for a plate",
+            Use(loads=frozenset({"column_stress"})),
         )
 
 
@@ -152,6 +174,7 @@ def _of_the_base(spec: RackStacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: long / 2,
             lambda spec: Interval(0.45 * long, 0.55 * long),
             "mast and drives are in the middle of the base, within 5 % of the wheel base",
+            Use(loads=frozenset({"stability_reserve", "phi4", "rail_contact", "wheel_force"})),
         )
 
 

@@ -9,7 +9,7 @@ from ptmcalc.contract.example import symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.contract.topic import of_topics
-from ptmcalc.machines.crane.stacking.assumptions import assumptions
+from ptmcalc.machines.crane.stacking.assumptions import USES, assumptions
 from ptmcalc.machines.crane.stacking.collision.topic import COLLISION
 from ptmcalc.machines.crane.stacking.figures import FIGURES
 from ptmcalc.machines.crane.stacking.fork.topic import FORK
@@ -51,6 +51,7 @@ def stacker(
         starting=template_in(package),
         symbols=symbols_in(__package__),
         assumed=assumptions,
+        uses=USES,
         relations=tuple(relation for relation in relations_of(word) if relation.scenes & scenes),
         parts=offered["parts"],
         tables=tables,

@@ -9,7 +9,7 @@ from ptmcalc.contract.result import Finding
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.assumptions import assumptions
+from ptmcalc.machines.crane.travelling.assumptions import USES, assumptions
 from ptmcalc.machines.crane.travelling.buffers.topic import BUFFERS
 from ptmcalc.machines.crane.travelling.figures import FIGURES
 from ptmcalc.machines.crane.travelling.rail.topic import RAIL
@@ -82,6 +82,7 @@ TRAVELLING = MachineKind(
     seconding=witnesses_in(__package__),
     symbols=symbols_in(__package__),
     assumed=assumptions,
+    uses=USES,
     inspect=inspect,
     relations=RELATIONS,
     **of_topics(TOPICS),

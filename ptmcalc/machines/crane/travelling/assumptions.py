@@ -1,12 +1,13 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
-from ptmcalc.contract.machine import Assumption
+from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import skew
+from ptmcalc.machines.crane.travelling.scenes import Skew
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
 _HEAD = 0.05
@@ -14,6 +15,8 @@ _HEAD = 0.05
 _WIDE = 1.5
 """Wear that is reckoned with at most, over that of the standards."""
 _STEEL = 7850.0  # kg/m^3
+_OF_SKEWING = Use(scenes=frozenset({Skew}))
+USES: Mapping[str, Use] = {"guide.tolerance": _OF_SKEWING, "guide.wear": _OF_SKEWING}
 
 
 def assumptions(spec: Travelling) -> Iterator[Assumption[Travelling]]:
