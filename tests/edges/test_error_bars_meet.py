@@ -1,7 +1,7 @@
 """Rule 7: the intervals of one load always intersect, whatever accuracy, budget, window and effects are asked for."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable
 from itertools import combinations
 
 import pytest
@@ -14,35 +14,45 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 
 SEED = int(os.environ.get("PTMCALC_SEED", "37"))
-NUMBER = 2
+NUMBER = 20
+QUICK = 0.4
+"""Predicted seconds of a scene of these; the study takes more (`SECONDS`), and all settings of each."""
+AUTOMATIC = "automatic"
 
-Runs = Iterator[tuple[str, dict[str, Estimate]]]
+Loads = dict[str, Estimate]
+Asked = Callable[[], Loads]
 
 
-def settings(kind: AnyKind, spec: MachineSpec, scene: Scene) -> Runs:
-    """The loads of a scene by what is asked for; nothing of a run's own health."""
+def settings(kind: AnyKind, spec: MachineSpec, scene: Scene, seconds: float) -> dict[str, Asked]:
+    """What can be asked for, and the loads of a scene by it; nothing of a run's own health."""
 
-    def loads(of: MachineSpec, what: Scene = scene, budget: float = SECONDS) -> dict[str, Estimate]:
-        done = settled(of, kind, what, budget=budget)
-        return {name: best.estimate for name, best in done.loads.items() if name not in best.result.health}
+    def loads(of: MachineSpec = spec, what: Scene = scene, budget: float = seconds) -> Asked:
+        def found() -> Loads:
+            done = settled(of, kind, what, budget=budget)
+            return {name: best.estimate for name, best in done.loads.items() if name not in best.result.health}
 
-    yield "automatic", loads(spec)
-    yield "all effects on", loads(all_on(kind, spec, scene))
+        return found
+
+    asked = {AUTOMATIC: loads(), "all effects on": loads(all_on(kind, spec, scene))}
     for accuracy in (0.05, 0.01, 0.001):
-        yield f"accuracy {accuracy:g}", loads(spec.model_copy(update={"accuracy": accuracy}))
-    for budget in (0.01, 0.2):
-        yield f"budget {budget:g} s", loads(spec, budget=budget)
+        asked[f"accuracy {accuracy:g}"] = loads(spec.model_copy(update={"accuracy": accuracy}))
+    for budget in (seconds / 400, seconds / 20):
+        asked[f"budget {budget:g} s"] = loads(budget=budget)
     if (longer_scene := longer(scene, 1.5)) is not scene:
-        yield "window 1.5", loads(spec, longer_scene)
+        asked["window 1.5"] = loads(what=longer_scene)
+    return asked
 
 
-def disjoint(kind: AnyKind, seed: int, index: int) -> list[str]:
-    """Loads of a random machine whose intervals do not intersect."""
+def disjoint(kind: AnyKind, seed: int, index: int, *, whole: bool = True) -> list[str]:
+    """Loads of a random machine whose intervals do not intersect: of all settings, or of two with little work."""
     made = machine(kind, seed, index)
     wrong = []
-    for scene in made.spec.all_scenes:
+    for number, scene in enumerate(made.spec.all_scenes):
+        asked = settings(kind, made.spec, scene, SECONDS if whole else QUICK)
+        others = [name for name in asked if name != AUTOMATIC]
+        chosen = asked if whole else (AUTOMATIC, others[(index + number) % len(others)])
         try:
-            found = list(settings(kind, made.spec, scene))
+            found = [(name, asked[name]()) for name in chosen]
         except NumericsError as error:
             wrong.append(f"{made.name}: {scene.label}: {error}")
             continue
@@ -58,7 +68,7 @@ def disjoint(kind: AnyKind, seed: int, index: int) -> list[str]:
 @pytest.mark.parametrize("index", range(NUMBER))
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.label)
 def test_intervals_of_one_load_intersect(kind: AnyKind, index: int) -> None:
-    assert disjoint(kind, SEED, index) == []
+    assert disjoint(kind, SEED, index, whole=False) == []
 
 
 @pytest.mark.parametrize(("label", "seed", "index"), [("drivetrain", 11, 51)])
