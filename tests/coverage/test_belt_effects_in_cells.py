@@ -189,10 +189,10 @@ def trials(name: str, count: int) -> list[Trial]:
     return [trial_of(name, number) for number in range(count)]
 
 
-MANY = {"takeup_mass": 16}
-"""Machines that are always tried, where few of them have an error that counts: else 8."""
+MANY = {"takeup_mass": 32}
+"""Machines that are always tried, where few of them have an error that counts: else 16."""
 SAMPLES = [
-    *(pytest.param(name, MANY.get(name, 8), id=f"{name}-some-{MANY.get(name, 8)}") for name in SMALL),
+    *(pytest.param(name, MANY.get(name, 16), id=f"{name}-some-{MANY.get(name, 16)}") for name in SMALL),
     *(pytest.param(name, MACHINES, id=f"{name}-all-{MACHINES}", marks=pytest.mark.study) for name in SMALL),
 ]
 
