@@ -467,7 +467,7 @@ def test_a_stiff_drive_is_refined_to_its_rounding_and_no_further(monkeypatch: py
 def test_the_search_for_a_cycle_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(steady, "_MOST_MARCHED", 20)
     report = sound(report_of(changed(SPIKES, inertia__rod_inertia="2.4e14 kg*m^2"), budget=0.5))
-    assert [d.message for d in report.diagnostics if "20 stretches" in d.message and d.code == "NUM103"]
+    assert [d.message for d in report.diagnostics if "20 segments" in d.message and d.code == "NUM103"]
     assert check_of(scene_of(report), "SHF102").verdict is Verdict.UNDECIDED
 
 
