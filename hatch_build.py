@@ -1,4 +1,4 @@
-"""Compiles the steps of a belt, one file of C, to a shared library in the wheel, or beside its source if editable.
+"""Compiles the steps of a belt, one file of C, to a shared library beside it, which goes into the wheel.
 
 It uses the compiler of the system: `$CC`, cc, gcc or clang. Where there is none, the build requires `ziglang` of the
 package index, which contains one.
@@ -57,7 +57,7 @@ class CustomBuildHook(BuildHookInterface[Any]):
         return ["ziglang>=0.13"] if self.target_name == "wheel" and not compiler() else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Compile, and put the library into the wheel."""
+        """Compile, and name the wheel after the platform."""
         if self.target_name != "wheel":
             return
         folder = Path(self.root) / FOLDER
@@ -65,5 +65,4 @@ class CustomBuildHook(BuildHookInterface[Any]):
         compiled(folder / "march.c", library)
         build_data["pure_python"] = False
         build_data["tag"] = f"py3-none-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
-        if version != "editable":
-            build_data["force_include"][str(library)] = f"{FOLDER}/{library.name}"
+        build_data["artifacts"].append(f"/{FOLDER}/{library.name}")  # though git ignores it
