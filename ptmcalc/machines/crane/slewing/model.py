@@ -1,5 +1,4 @@
-"""What a slewing crane's file comes to: inertias, resistances and torques about the slewing axis,
-and the phases of its rotation."""
+"""What a slewing crane's file comes to: inertias and torques about the slewing axis, and the phases of its rotation."""
 
 import math
 from dataclasses import dataclass
