@@ -11,7 +11,8 @@ from support.machines import loaded
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.hoist.statics.solver import HOIST_STATICS, HOLDING, STARTING
+from ptmcalc.machines.hoist.drive.solver import HOLDING, STARTING
+from ptmcalc.machines.hoist.statics.solver import HOIST_STATICS
 
 WITHOUT_BARS = {"hoist": ("hoist_statics", "holding_brake", "starting_reserve")}
 KIND = load_kind("hoist")

@@ -20,7 +20,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import AnyEffect
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.stacking.events import catch_of, push_of
+from ptmcalc.machines.crane.stacking.fork.cases import catch_of, push_of
 from ptmcalc.machines.crane.stacking.fork.caught import CAUGHT_STOPPED, CAUGHT_TRAIN
 from ptmcalc.machines.crane.stacking.fork.effects import EFFECTS_OF_THE_FORK
 from ptmcalc.machines.crane.stacking.fork.pushed import PUSH_RIGID, PUSH_TRAIN

@@ -44,6 +44,7 @@ TOP = {
     "LICENSE",
     "README.md",
     "docs",
+    "hatch_build.py",
     "mkdocs.yml",
     "ptmcalc",
     "pyproject.toml",

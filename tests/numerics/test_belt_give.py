@@ -34,7 +34,7 @@ def pulled(rubber: Rubber, cells: int, window: float) -> Drawn:
     head = Station(place_at(course, 0, 0.0), [Drum("head", 0.0)], TakeUp(TAKEUP), lambda time: ACCELERATION * time)
     tail = Station(place_at(course, course.tail, 0.0), [Drum("tail", 0.0)])
     tension = np.full(course.cells, TAKEUP)
-    return march(course, head, tail, tension, 0.0, window, None, Give(course, rubber, EA))
+    return march(course, head, tail, tension, 0.0, window, give=Give(course, rubber, EA))
 
 
 def series(modulus: tuple[np.ndarray, np.ndarray], times: np.ndarray, modes: int) -> np.ndarray:
@@ -177,7 +177,7 @@ def cells_of(rig: Rig, scene: dict[str, object], damping: float, cells: int, sag
     (made,) = spec.all_scenes
     case = replace(moving(spec, made), window=WINDOW)
     ready = set_up(case, frozenset(carried), cells)
-    return march(ready.course, ready.head, ready.tail, ready.tension, case.speed, WINDOW, None, ready.give)
+    return march(ready.course, ready.head, ready.tail, ready.tension, case.speed, WINDOW, give=ready.give)
 
 
 def pull_of(rig: Rig, scene: dict[str, object]) -> Callable[[float], float] | None:

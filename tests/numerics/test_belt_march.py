@@ -16,7 +16,7 @@ from support.belt_fem import Length, Motion, Plan, Roller, no_hold, simulate
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.belt import march as marching
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
-from ptmcalc.numerics.belt.march import Drawn, march, place_at
+from ptmcalc.numerics.belt.march import Drawn, Until, march, place_at
 from ptmcalc.numerics.belt.station import Drum, Station, TakeUp
 
 EA = 138e6
@@ -545,7 +545,7 @@ def test_extremes_see_the_start() -> None:
 def test_still_ends_the_march() -> None:
     plan, window, off, speed, frozen, _ = SCENES["brake to rest"]
     ready = twin(plan, 100, off, frozen)
-    mine = march(*ready, speed, window, lambda time, seen: seen.belt <= 0)
+    mine = march(*ready, speed, window, Until(rests_for=0.0))
     assert mine.head[-1].belt == 0.0
     assert all(seen.belt > 0 for seen in mine.head[:-1])
     assert mine.times[-1] < window

@@ -6,9 +6,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from support.belt_steps import exponential, velocity
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.belt import friction_step
 from ptmcalc.numerics.belt.station import Drum, Place, Seen, Station, TakeUp
 
 ON, OFF = 184e3, 72e3
@@ -44,7 +44,7 @@ def test_weights_of_a_step_to_the_last_digits(sign: float) -> None:
         y = sign * x
         whole = math.fsum((-y) ** k / math.factorial(k + 1) for k in range(60))
         late = math.fsum((-y) ** k / math.factorial(k + 2) for k in range(60))
-        decay, early, last = friction_step._exponential(y)
+        decay, early, last = exponential(y)
         close = 1e-13 if x < 1e-3 else 1e-12
         assert decay == pytest.approx(math.exp(-y), rel=1e-15)
         assert last == pytest.approx(late, rel=close / 2, abs=0.0)
@@ -57,26 +57,26 @@ class TestOneStep:
 
     def test_without_mass_it_is_in_balance_at_the_end(self, way: float) -> None:
         for z, force, friction, speed in ((1e5, 3e4, 1e4, 0.2), (0.5, 1.0, 0.5, 1.0), (1e5, 1e4, 3e4, 0.0)):
-            found = friction_step.velocity(9.0, 0.0, z, (7e6, friction), (-5e5, way * force), 0.1)
+            found = velocity(9.0, 0.0, z, (7e6, friction), (-5e5, way * force), 0.1)
             assert found == pytest.approx(way * speed, rel=1e-9, abs=0.0)
 
     def test_a_light_drum_is_not_one_without_mass(self, way: float) -> None:
         mass, z, step = 0.5, 40.0, 0.02
-        found = friction_step.velocity(way * 3.0, mass, z, (0.0, 0.0), (way * 10.0, way * 10.0), step)
+        found = velocity(way * 3.0, mass, z, (0.0, 0.0), (way * 10.0, way * 10.0), step)
         decay = math.exp(-z * step / mass)
         assert found == pytest.approx(way * (3.0 * decay + 10.0 / z * (1 - decay)), rel=1e-12)
 
     def test_what_friction_holds_stays(self, way: float) -> None:
         for force in (0.0, 0.5, 7e4):
-            assert friction_step.velocity(0.0, 1e3, 1e5, (8e4, 7e4), (0.0, way * force), 0.1) == 0.0
-        assert friction_step.velocity(0.0, 1e3, 1e5, (0.0, 0.5), (0.0, way * 0.75), 0.1) * way > 0
+            assert velocity(0.0, 1e3, 1e5, (8e4, 7e4), (0.0, way * force), 0.1) == 0.0
+        assert velocity(0.0, 1e3, 1e5, (0.0, 0.5), (0.0, way * 0.75), 0.1) * way > 0
 
     def test_what_breaks_loose_is_pushed_from_0_on(self, way: float) -> None:
         """The excess over friction rises to its end from nothing, not from below."""
         mass, step = 1e3, 0.1
-        found = friction_step.velocity(0.0, mass, 0.0, (6e4, 6e4), (0.0, way * 8e4), step)
+        found = velocity(0.0, mass, 0.0, (6e4, 6e4), (0.0, way * 8e4), step)
         assert found == pytest.approx(way * 2e4 / 2 * step / mass, rel=1e-12)
-        found = friction_step.velocity(0.0, mass, 0.0, (0.1, 0.1), (way * 0.6, way * 0.8), step)
+        found = velocity(0.0, mass, 0.0, (0.1, 0.1), (way * 0.6, way * 0.8), step)
         assert found == pytest.approx(way * 0.6 * step / mass, rel=1e-12)
 
     def test_it_stops_and_turns_back(self, way: float) -> None:
@@ -85,20 +85,20 @@ class TestOneStep:
         # push and friction change in opposite ways, so that together they are even
         forcing = way * -push, way * -(push + rate * step)
         stops = mass * speed / (push + rub)
-        found = friction_step.velocity(way * speed, mass, 0.0, (rub, rub - rate * step), forcing, step)
+        found = velocity(way * speed, mass, 0.0, (rub, rub - rate * step), forcing, step)
         assert stops < step
         expected = -((push - rub) * (step - stops) + rate * (step**2 - stops**2)) / mass
         assert found == pytest.approx(way * expected, rel=1e-9)
 
     def test_it_stops_and_stays(self, way: float) -> None:
-        assert friction_step.velocity(way * 3.0, 2e3, 0.0, (2e4, 2e4), (way * -1e4, way * -1e4), 0.6) == 0.0
-        found = friction_step.velocity(way * 3.0, 2e3, 0.0, (2e4, 2e4), (way * -1e4, way * -1e4), 0.1)
+        assert velocity(way * 3.0, 2e3, 0.0, (2e4, 2e4), (way * -1e4, way * -1e4), 0.6) == 0.0
+        found = velocity(way * 3.0, 2e3, 0.0, (2e4, 2e4), (way * -1e4, way * -1e4), 0.1)
         assert found == pytest.approx(way * 1.5, rel=1e-12)
 
     def test_growth_of_a_hundred_time_constants_is_too_much(self, way: float) -> None:
-        assert friction_step.velocity(0.0, 1.0, -95.0, (0.0, 0.0), (way, way), 1.0) * way > 1e30
+        assert velocity(0.0, 1.0, -95.0, (0.0, 0.0), (way, way), 1.0) * way > 1e30
         with pytest.raises(NumericsError, match="steeply"):
-            friction_step.velocity(0.0, 1.0, -105.0, (0.0, 0.0), (way, way), 1.0)
+            velocity(0.0, 1.0, -105.0, (0.0, 0.0), (way, way), 1.0)
 
 
 # -- where nothing is but the belt ------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from support.trains import run
 
 from ptmcalc.numerics.belt.course import Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber
-from ptmcalc.numerics.belt.march import Drawn, march, place_at
+from ptmcalc.numerics.belt.march import Drawn, Until, march, place_at
 from ptmcalc.numerics.belt.station import Drum, Place, Seen, Station, TakeUp
 from ptmcalc.numerics.belt.travel import Travel
 from ptmcalc.numerics.mast.base import Base, Guide, Obstacle
@@ -327,7 +327,7 @@ def test_of_a_whole_belt(kind: str, units: Units) -> None:
         rubber = Rubber(0.3, 0.2 * u.time) if sags else None
         gives = Give(cells, rubber, 9e7 * u.force) if sags else None
         runs = Travel(cells, 9e7 * u.force, 4.0 * u.speed) if kind == "runs" else None
-        return march(cells, head, tail, tension, 4.0 * u.speed if runs else 0.0, 3.0 * u.time, None, gives, runs)
+        return march(cells, head, tail, tension, 4.0 * u.speed if runs else 0.0, 3.0 * u.time, Until(), gives, runs)
 
     one, other = drawn(Units()), drawn(units)
     assert len(one.times) == len(other.times)

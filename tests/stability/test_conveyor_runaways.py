@@ -4,10 +4,10 @@ import math
 from typing import Any
 
 import pytest
+from support.belt_steps import velocity
 from support.machines import spec_of
 
 from ptmcalc.machines.conveyor.waves import network
-from ptmcalc.numerics.belt import friction_step
 
 
 def _drive(torque: str, inertia: str, ratio: float, drum: dict[str, Any], **more: Any) -> dict[str, Any]:
@@ -93,5 +93,5 @@ def test_a_drum_at_rest_that_is_let_go_within_a_step_does_not_fly_back(hold: flo
     """Held by more than it is pulled with at the start, pulled forward and free at the end: it moves forward, if at
     all, and by no more than the pull can bring about."""
     mass, pull, step = 500.0, 2e5, 0.3
-    speed = friction_step.velocity(0.0, mass, 0.0, (hold, 0.0), (-100.0, pull), step)
+    speed = velocity(0.0, mass, 0.0, (hold, 0.0), (-100.0, pull), step)
     assert 0 <= speed <= pull / mass * step

@@ -31,6 +31,11 @@ def hook_mass(spec: Hoist, scene: HoistScene) -> float:
     return spec.hook_block + (spec.load if scene.load == "full" else 0.0)
 
 
+def loaded(spec: Hoist, scene: HoistScene) -> bool:
+    """Whether the rated load hangs on the hook: what an empty hook does not ask is not asked of it."""
+    return scene.load == "full"
+
+
 def fall_length(spec: Hoist, hook_height: float) -> float:
     """Of a fall with the hook so high above its lowest position [m]."""
     return spec.least_fall + spec.height - hook_height

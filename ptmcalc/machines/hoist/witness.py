@@ -13,6 +13,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.effects import ALWAYS, SCENES
 from ptmcalc.machines.hoist.motion.loads import MOVING
 from ptmcalc.machines.hoist.motion.reduced import rope_mass
@@ -29,7 +30,6 @@ from ptmcalc.machines.hoist.motion.train import (
     STRUCTURE,
     Case,
     Moving,
-    case_of,
 )
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.parts import LINEAR, Body, Train

@@ -4,21 +4,19 @@ Gauss nodes between the collocation nodes; the torque through the gear is taken 
 that no inertia of the motor's side is counted with one gear factor here and with another there.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.laws import duty
 from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.speed_changes.motion import Part, Run
-from ptmcalc.machines.shaft.steady import Cycle
 from ptmcalc.numerics import energy
 from ptmcalc.numerics.cycle import Orbit
 
 FloatArray = NDArray[np.float64]
 
-_ORDER = 18
+ORDER = 18
 """Gauss nodes of a step or stretch in the energy balance [1]. A numerical choice: the rule is exact to degree 35 and
 differs from the collocation nodes, 12 at most. Fewer raise the residual of a correct run; more cost time."""
 TOLERANCE = 1e-9
@@ -46,7 +44,7 @@ class Ledger:
 
 
 @dataclass(frozen=True)
-class _Nodes:
+class Nodes:
     """A motion at the nodes of its quadrature: angle, speed, acceleration, duration of a node, torques."""
 
     angle: FloatArray
@@ -59,7 +57,8 @@ class _Nodes:
     brake: FloatArray
 
 
-def _booked(machine: Machine, nodes: list[_Nodes], stored: float) -> Ledger:
+def booked(machine: Machine, nodes: list[Nodes], stored: float) -> Ledger:
+    """The works over the nodes of a motion that stores so much energy [J]."""
     drive, friction = machine.drive, machine.friction
     sums = np.zeros(5)
     turned_over = 0.0
@@ -81,15 +80,9 @@ def _booked(machine: Machine, nodes: list[_Nodes], stored: float) -> Ledger:
     return Ledger(gained, useful_work, lost_work, braked, rms, most, residual)
 
 
-def of_cycle(cycle: Cycle) -> Ledger:
-    """The works of a steady cycle."""
-    machine, orbit = cycle.machine, cycle.orbit
-    return _booked(machine, [_over_angle(machine, orbit, len(machine.drive.stages) - 1)], 0.0)
-
-
-def _over_angle(machine: Machine, orbit: Orbit, stage: int | None) -> _Nodes:
+def over_angle(machine: Machine, orbit: Orbit, stage: int | None) -> Nodes:
     """A motion over the angle, long after the start or the command to stop."""
-    angle, e, weight = orbit.sample(_ORDER)
+    angle, e, weight = orbit.sample(ORDER)
     speed = np.sqrt(2 * e)
     low, high = orbit.grid.edges[:-1, None], orbit.grid.edges[1:, None]
     motor, brake = np.zeros(angle.shape), np.zeros(angle.shape)
@@ -97,42 +90,4 @@ def _over_angle(machine: Machine, orbit: Orbit, stage: int | None) -> _Nodes:
         brake = brake + machine.brake_most
     else:
         motor = machine.drive.torque(stage, speed)
-    return _Nodes(angle, low, high, speed, orbit.derivative(_ORDER), weight / speed, motor, brake)
-
-
-def of_run(run: Run) -> Ledger:
-    """The works of a run-up or a run-out."""
-    machine, nodes = run.machine, []
-    skipped: list[Part] = []
-    for part in run.parts:
-        if part.orbit is not None:
-            nodes.append(_over_angle(machine, part.orbit, part.stage))
-        if part.skipped is not None:
-            skipped.append(part)
-        for step in part.steps:
-            time, angle, speed, acceleration, weight = step.sample(_ORDER)
-            if part.stage is None:
-                motor, brake = np.zeros(time.shape), machine.brake_torque(time)
-            else:
-                motor, brake = machine.drive.torque(part.stage, speed, time), np.zeros(time.shape)
-            nodes.append(_Nodes(angle, part.low, part.high, speed, acceleration, weight, motor, brake))
-    ends = [machine.mechanism(np.array([state.angle]))[0][0] * state.speed**2 / 2 for state in (run.begin, run.end)]
-    inertia = float(machine.mechanism(np.zeros(1))[0][0])
-    leaps = [part.skipped for part in skipped if part.skipped is not None]
-    leapt = sum(inertia * (leap.energy - leap.trace[0][2]) for leap in leaps)
-    books = _booked(machine, nodes, float(ends[1] - ends[0]) - leapt)
-    return _with_leaps(machine, books, skipped)
-
-
-def _with_leaps(machine: Machine, books: Ledger, parts: list[Part]) -> Ledger:
-    """With the work of the brake over cycles that were skipped, and the worst balance of the cycles they rest on."""
-    brake, residual = books.brake, books.residual
-    inertia = float(machine.mechanism(np.zeros(1))[0][0])
-    for part in parts:
-        assert part.skipped is not None
-        if part.stage is None:
-            brake += machine.brake_most * machine.period * part.skipped.cycles
-        for orbit in part.skipped.orbits:
-            stored = inertia * float(orbit.within([1.0])[-1, 0] - orbit.start[0])
-            residual = max(residual, _booked(machine, [_over_angle(machine, orbit, part.stage)], stored).residual)
-    return replace(books, brake=brake, residual=residual)
+    return Nodes(angle, low, high, speed, orbit.derivative(ORDER), weight / speed, motor, brake)

@@ -172,6 +172,13 @@ class Machine:
         """Whether the drive, or the load, exceeds all that resists and no speed carries it stably."""
         return not self.working_speeds and float(self.surplus(self.tried_speeds[-1:])[0]) > 0
 
+    @property
+    def largest_torque(self) -> float:
+        """Largest torque of the motor in its last stage, at any speed tried or at breakdown [N*m]."""
+        drive = self.drive
+        torques = drive.torque(len(drive.stages) - 1, np.append(self.tried_speeds, 0.0))
+        return max(float(np.max(torques)), drive.breakdown_torque or 0.0, 0.0)
+
     def total_inertia(self, mechanism: FloatArray, factor: FloatArray) -> FloatArray:
         """Inertia with the motor's side, which the gear's loss makes smaller or larger [kg*m^2]."""
         return np.asarray(mechanism + factor * self.drive.ratio**2 * self.drive.motor_inertia)

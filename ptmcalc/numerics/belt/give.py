@@ -22,19 +22,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.belt import library as compiled
 from ptmcalc.numerics.belt.course import Course, FloatArray
+from ptmcalc.numerics.belt.library import address, check, library
 
 _DAMPED = 1.0
 """Viscosity of the spans in a front over what just keeps neighbouring lumps from ringing."""
-_LATE, _LATEST = 0.3, 0.02
-"""Weight of the end of a step in the mean tension of a span, in a front and where there is none."""
-_ROUNDS = 60
-_CLOSE = 1e-6
-"""Relative change of every tension below which Newton's rule is at its end: the next one would be its square."""
-_LEAP = 1.5
-"""Largest change of the logarithm of a tension in one round."""
-_TOGETHER = 2
-"""Rounds of all nodes; later ones are of those that have not settled."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +45,7 @@ class Rubber:
 
 
 class Give:
-    """The nodes between cells, and what they give.
+    """The nodes between cells, and what they give. The steps are those of `march.c`.
 
     Args:
         course: the cells, with `sag` (w l)^2 h/24 of their spans [N^2*m].
@@ -61,22 +54,36 @@ class Give:
     """
 
     def __init__(self, course: Course, rubber: Rubber | None, stiffness: float) -> None:
-        nodes = slice(1, -1)
-        self.before, self.after = course.before[nodes], course.after[nodes]
-        self.step = course.step
-        self.spans = _Spans(
-            _at_nodes(course.sag, course.tail), course.climb[nodes], (self.before + self.after) / 2, course.step
+        nodes, step = slice(1, -1), course.step
+        self.before, self.after, self.climb = (
+            np.ascontiguousarray(one[nodes]) for one in (course.before, course.after, course.climb)
         )
+        self.sags = _at_nodes(course.sag, course.tail)
+        hang = (self.sags > 0).astype(float)
+        between = np.zeros_like(hang)
+        between[1:-1] = hang[2:] * hang[1:-1] * hang[:-2]
+        damped = _DAMPED * np.sqrt(self.sags * ((self.before + self.after) / 2) / (2 * step))
         stiffer, time = (rubber.stiffer, rubber.time) if rubber else (0.0, 1.0)
         lengths = _at_nodes(np.diff(course.places), course.tail)
-        self.lengths, self.climb = np.where(lengths > 0, lengths, 1.0), course.climb[nodes]
+        self.lengths = np.where(lengths > 0, lengths, 1.0)
         self.settled = stiffer / (1 + stiffer) / stiffness
         """retarded strain over tension, in the end [1/N]"""
         self.yields = lengths * self.settled
         """retarded strain over tension, in the end [m/N]"""
         slow = time * (1 + stiffer)
-        self.eager = 1 / (slow + course.step / 2)
-        self.heats = np.divide(slow, self.yields, out=np.zeros_like(self.yields), where=self.yields > 0)
+        eager = 1 / (slow + step / 2)
+        heats = np.divide(slow, self.yields, out=np.zeros_like(self.yields), where=self.yields > 0)
+        count = len(self.sags)
+        self.tension, self.slackness, self.viscous, late, self.retarded, *room = np.zeros((8, count))
+        """tension of the spans with gravity's part [N], one over it [1/N], their viscosity, retarded strain [m]"""
+        given = (
+            self.before, self.after, self.climb, self.sags, self.sags / step, hang, between, damped, self.yields,
+            self.yields * eager, heats, self.lengths,
+        )  # fmt: skip
+        self._alive = (*given, self.tension, self.slackness, self.viscous, late, self.retarded, *room)
+        self.state = compiled.Give(count, step, eager, self.settled, *map(address, self._alive))
+        self.at = compiled.address_of(self.state)
+        """where C finds it"""
 
     def begin(self, tension: FloatArray) -> None:
         """At rest in itself under tensions at the nodes, less gravity's part, shape (nodes,) [N].
@@ -84,9 +91,12 @@ class Give:
         Raises:
             NumericsError: NUM102 when spans that sag have no tension.
         """
-        self.spans.begin(tension)
-        self.retarded = self.yields * tension
-        self.heat = 0.0
+        whole = np.where(self.sags > 0, tension + self.climb, 1.0)
+        if (whole <= 0).any():
+            raise NumericsError("NUM102", "the belt is slack at the start: its spans have no shape")
+        library().belt_hang(self.at, address(whole))
+        self.retarded[:] = self.yields * tension
+        self.state.span_heat = self.state.rubber_heat = 0.0
 
     def pass_on(
         self, into: FloatArray, out: FloatArray, friction: FloatArray, drag: FloatArray
@@ -97,28 +107,15 @@ class Give:
         Raises:
             NumericsError: NUM101 when no tension of the spans is found.
         """
-        spans, inner, own = self.spans, self.yields * self.eager, -self.retarded * self.eager
-        rows = np.array((*spans.rows(), into, out, friction, self.before + drag, self.after, inner, own))
-        tried = spans.tension
-        v, tension, change = _round(rows, tried)
-        for _ in range(1, _TOGETHER):
-            tried = tried * np.exp(change)
-            v, tension, change = _round(rows, tried)
-        late = np.flatnonzero(~(np.abs(change) <= _CLOSE))  # what is no number never settles
-        if len(late):
-            rows, tried = rows[:, late], tried.copy()
-            for _ in range(_ROUNDS):
-                tried[late] *= np.exp(change[late])
-                v[late], tension[late], change[late] = _round(rows, tried[late])
-                if (np.abs(change[late]) <= _CLOSE).all():
-                    break
-            else:
-                raise NumericsError("NUM101", "the spans of the belt find no tension")
-        gives = spans.settle(tried * (1 + change), tension)
-        retards = inner * tension + own
-        self.retarded = self.retarded + self.step * retards
-        self.heat += self.step * float(self.heats @ (retards * retards))
-        return v, v + gives + retards
+        before, behind = np.empty((2, len(into)))
+        given = [np.ascontiguousarray(one, float) for one in (into, out, friction, drag)]
+        check(library().belt_pass_on(self.at, *map(address, (*given, before, behind))), 0.0)
+        return before, behind
+
+    @property
+    def rounds(self) -> int:
+        """Rounds of Newton's rule in the last step, of the node that took most."""
+        return int(self.state.rounds)
 
     @property
     def strain(self) -> FloatArray:
@@ -127,99 +124,28 @@ class Give:
 
     def restrain(self, strain: FloatArray) -> None:
         """Give the nodes another retarded strain."""
-        self.retarded = (strain - self.settled * self.climb) * self.lengths
+        self.retarded[:] = (strain - self.settled * self.climb) * self.lengths
 
     @property
     def lost(self) -> float:
         """Energy that damping has taken so far, that of the numbers included [J]."""
-        return self.heat + self.spans.heat
+        return float(self.state.rubber_heat + self.state.span_heat)
 
     @property
     def stored(self) -> float:
         """Energy in spans and retarded strain [J]."""
-        rubber = np.divide(self.retarded**2, 2 * self.yields, out=np.zeros_like(self.yields), where=self.yields > 0)
-        return self.spans.stored + float(rubber.sum())
+        return float(library().belt_given(self.at))
 
     @property
     def compliance(self) -> FloatArray:
         """What the spans at the nodes give per tension as they hang now, 2 k/S^3 [m/N]."""
-        compliance: FloatArray = 2 * self.spans.sags * self.spans.slackness**3
+        compliance: FloatArray = 2 * self.sags * self.slackness**3
         return compliance
 
     @property
     def length(self) -> float:
         """What they give now [m]; of the spans less than nothing."""
-        return float(self.retarded.sum()) + self.spans.length
-
-
-class _Spans:
-    """Spans that sag. Their state is the tension at the last half step, gravity's included."""
-
-    def __init__(self, sags: FloatArray, climb: FloatArray, impedance: FloatArray, step: float) -> None:
-        self.sags, self.climb, self.step, self.rate = sags, climb, step, sags / step
-        self.hang = (sags > 0).astype(float)
-        self.between = np.zeros_like(sags)
-        self.between[1:-1] = self.hang[2:] * self.hang[1:-1] * self.hang[:-2]
-        self.damped = _DAMPED * np.sqrt(sags * impedance / (2 * step))
-
-    def begin(self, tension: FloatArray) -> None:
-        whole = np.where(self.sags > 0, tension + self.climb, 1.0)
-        if (whole <= 0).any():
-            raise NumericsError("NUM102", "the belt is slack at the start: its spans have no shape")
-        self._stand(whole)
-        self.heat = 0.0
-
-    def _stand(self, tension: FloatArray) -> None:
-        self.tension, self.slackness = tension, 1 / tension
-        front = np.zeros_like(tension)
-        front[1:-1] = np.abs(tension[2:] - tension[:-2]) * self.slackness[1:-1]
-        front *= self.between
-        np.minimum(front, 1.0, out=front)
-        self.viscous = self.damped * tension * np.sqrt(tension) * front
-        self.late = np.maximum(_LATE * front, _LATEST)
-        self.stored = float((self.sags * self.slackness * (self.climb * self.slackness - 2)).sum())
-        """energy U - climb e = -2 k/S + climb k/S^2 [J]"""
-
-    def rows(self) -> tuple[FloatArray, ...]:
-        """What `_round` asks of the spans."""
-        return self.rate, self.climb, self.hang, self.slackness, self.viscous, self.late
-
-    def settle(self, tension: FloatArray, passed: FloatArray) -> FloatArray:
-        """Go to the tensions of the next half step, `passed` on by the nodes meanwhile; what the spans give [m/s]."""
-        before, slack = self.stored, self.slackness
-        self._stand(tension)
-        gives: FloatArray = self.rate * (slack**2 - self.slackness**2)
-        self.heat += float(passed @ gives) * self.step - (self.stored - before)
-        return gives
-
-    @property
-    def length(self) -> float:
-        return -float(self.sags @ self.slackness**2)
-
-
-def _round(rows: FloatArray, tried: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """One round of Newton's rule at some nodes: speed before them, tension that they pass on, and the change of the
-    logarithm of the `tried` tensions of their spans.
-
-    A span is taken as a line: it gives `known` + `soft` times its tension.
-    """
-    rate, climb, hang, slackness, viscous, late, into, out, friction, against, after, inner, own = rows
-    slack = 1 / tried
-    square = slack * slack
-    drawn, slope = slackness * slackness - square, 2 * slack * square
-    whole = 1 / (1 + tried * slackness)
-    mean = 2 * (1 - late) * whole
-    held = tried * (mean + late) + viscous * drawn - climb
-    stiff = mean * whole + late + viscous * slope
-    soft = rate * slope / stiff
-    share = 1 / (1 + after * (inner + soft))
-    behaves = after * share
-    arrives = out * share - behaves * (own + rate * drawn - soft * held)
-    q = arrives - into
-    v = np.copysign(np.maximum(np.abs(q) - friction, 0.0), q) / (against + behaves)
-    tension = arrives - behaves * v
-    change = np.minimum(np.maximum((tension - held) * slack / stiff * hang, -_LEAP), _LEAP)
-    return v, tension, change
+        return float(self.retarded.sum()) - float(self.sags @ self.slackness**2)
 
 
 def _at_nodes(cells: FloatArray, tail: int) -> FloatArray:

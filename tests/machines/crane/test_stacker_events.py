@@ -13,9 +13,10 @@ from support.stacker_ode import Caught
 
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.crane.stacking.events import catch_of, push_of, roll_of
+from ptmcalc.machines.crane.stacking.fork.cases import catch_of, push_of
 from ptmcalc.machines.crane.stacking.fork.caught import CAUGHT_TRAIN
 from ptmcalc.machines.crane.stacking.fork.pushed import PUSH_RIGID, PUSH_TRAIN
+from ptmcalc.machines.crane.stacking.rail.base import roll_of
 from ptmcalc.machines.crane.stacking.rail.roll import RAIL_JUMP, RAIL_RESPONSE
 
 Q = 1600 * 9.81

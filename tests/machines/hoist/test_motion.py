@@ -12,7 +12,7 @@ from support.machines import changed, check_of, load_of, report_of, scene_of
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import SceneReport
 from ptmcalc.machines.hoist.motion import scene as motion
-from ptmcalc.machines.hoist.motion import train
+from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.course import Course, cost, play
 
 G = 9.81
@@ -199,7 +199,7 @@ def test_lift_off_under_a_bridge_with_mass() -> None:
     structure = {"stiffness": "8e6 N/m", "mass": "7 t"}
     data = reduced(5000.0, 18000.0, 1.2e6, 5.0, 1.3 * 5000 * G, {"type": "lift", "rope": "taut"}, structure=structure)
     spec = hoist_of(data)
-    case = train.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
+    case = case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
     rope, bridge = bridge_by_steps(1.3, case.window)
     scene = played(data)
     assert value(scene, "lift_off_factor") == pytest.approx(rope, rel=1e-6)
@@ -246,7 +246,7 @@ def test_the_bar_of_a_smooth_rise_holds_an_integration(shape: str) -> None:
     profile = {"shape": shape, "time": "1.5 s", "control": "torque"}
     data = reduced(5000.0, 18000.0, 1.2e6, 5.0, 1.3 * 5000 * G, {"type": "lift", "rope": "taut", "profile": profile})
     spec = hoist_of(data)
-    case = train.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
+    case = case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
     truth = rise_by_steps(shape, 1.5, case.window)
     found = load_of(played(data), "lift_off_factor").estimate
     assert found.low <= truth <= found.high
@@ -322,7 +322,7 @@ def test_a_start_along_a_curve_follows_it_from_its_first_moment(shape: str) -> N
     """Its first acceleration is small beside all stiffness there is; who leaves it out ends slower, with a residual."""
     data = changed(CRANE, scenes=[{"type": "start", "profile": {"shape": shape, "time": "2 s"}}])
     spec = hoist_of(data)
-    played = play(train.case_of(spec, spec.all_scenes[0], frozenset()), 1e-6)  # type: ignore[arg-type]
+    played = play(case_of(spec, spec.all_scenes[0], frozenset()), 1e-6)  # type: ignore[arg-type]
     assert played.ledger.residual < 1e-12
     mains = played.case.named("body", "set speed")
     assert mains is not None
@@ -351,7 +351,7 @@ def stiff(rope: float, gear: float) -> Course:
         gearbox__stiffness=f"{gear * arm**2} N*m/rad",
     )
     spec = hoist_of(data)
-    case = train.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
+    case = case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
     assert case.stiffness == pytest.approx(rope, rel=1e-9)
     return play(case, 1e-6)
 

@@ -14,7 +14,7 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.laws import rope_rod
 from ptmcalc.machines.hoist.motion import rope_case, rope_scene
 from ptmcalc.machines.hoist.motion import scene as motion
-from ptmcalc.machines.hoist.motion.train import case_of
+from ptmcalc.machines.hoist.motion.cases import case_of
 
 TALL: dict[str, Any] = yaml.safe_load("""
 kind: hoist

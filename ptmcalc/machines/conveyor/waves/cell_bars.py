@@ -86,7 +86,7 @@ def bars(case: Moving, grids: Grids, front: float) -> dict[str, Interval]:
 def front_at(drawn: Drawn) -> float:
     """The highest front at head and tail: the most that a tension there changes by within one step [N]."""
     return max(
-        float(np.abs(np.diff([seen.tensions[end] for seen in history])).max(initial=0.0))
+        float(np.abs(np.diff(history.tensions[:, end])).max(initial=0.0))
         for history in (drawn.head, drawn.tail)
         for end in (0, -1)
     )

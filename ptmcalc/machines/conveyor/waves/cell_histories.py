@@ -21,26 +21,24 @@ def histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
         return History(quantity, times, np.asarray(values, float).tolist())
 
     found = {
-        "tension_run_on_max": over_time(np.array([seen.tensions[0] for seen in drawn.head])),
-        "tension_run_off_min": over_time(np.array([seen.tensions[-1] for seen in drawn.head])),
+        "tension_run_on_max": over_time(drawn.head.tensions[:, 0]),
+        "tension_run_off_min": over_time(drawn.head.tensions[:, -1]),
     }
     names, grips = case.spec.all_drives, []
     for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
-        belt = np.array([seen.belt for seen in history])
         for index, drum in enumerate(station.drums):
             if drum.name not in names:
                 continue
-            on, off = (np.array([seen.tensions[index + end] for seen in history]) for end in (0, 1))
+            on, off = history.tensions[:, index], history.tensions[:, index + 1]
             found[of("tension_run_on_max", drum.name)] = over_time(on)
             found[of("tension_run_off_min", drum.name)] = over_time(off)
             given = names[drum.name].drum
             if given.friction is not None:
-                lift = case.line.belt_line_mass * belt**2
+                lift = case.line.belt_line_mass * history.belt**2
                 used = capstan.slip_utilisation(
                     np.maximum(on, off), np.minimum(on, off), lift, given.friction * given.wrap
                 )
-                slips = np.array([bool(seen.slips[index]) for seen in history])
-                used = np.where(slips, np.maximum(used, 1.0), used)
+                used = np.where(history.slips[:, index] != 0, np.maximum(used, 1.0), used)
                 found[of("slip_utilisation_max", drum.name)] = over_time(used, units.RATIO)
                 grips.append(used)
     if grips:
@@ -71,9 +69,8 @@ def events_of(drawn: Drawn, ready: Set) -> Iterator[Event]:
     found = []
     for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
         for index, drum in enumerate(station.drums):
-            before = 0
-            for k, seen in enumerate(history):
-                if seen.slips[index] != before:
-                    found.append(Event(float(drawn.times[k]), drum.name, words[before], words[seen.slips[index]]))
-                    before = seen.slips[index]
+            slips = np.concatenate([[0.0], history.slips[:, index]])
+            for k in np.flatnonzero(np.diff(slips)).tolist():
+                before, after = words[int(slips[k])], words[int(slips[k + 1])]
+                found.append(Event(float(drawn.times[k]), drum.name, before, after))
     yield from sorted(found, key=lambda event: event.time)

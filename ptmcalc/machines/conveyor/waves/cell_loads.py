@@ -16,7 +16,7 @@ from ptmcalc.machines.conveyor.spec import Start
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn
-from ptmcalc.numerics.belt.station import Seen, Station
+from ptmcalc.numerics.belt.station import Station, Track
 
 Values = dict[str, tuple[float, dict[str, float]]]
 """Loads of one grid: the value, and where and when."""
@@ -68,13 +68,13 @@ class OneGrid:
 def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
     """All loads of a march."""
     line, step = case.line, ready.course.step
-    head, belt = drawn.head, np.array([seen.belt for seen in drawn.head])
+    head, belt = drawn.head, drawn.head.belt
     found = OneGrid({})
     for station, history in ((ready.head, head), (ready.tail, drawn.tail)):
         _of_drives(found, case, station, history, step)
     values, traces = found.values, found.traces
-    traces["tension_run_on_max"] = on = Trace(np.array([seen.tensions[0] for seen in head]), step)
-    traces["tension_run_off_min"] = off = Trace(np.array([seen.tensions[-1] for seen in head]), step, -1)
+    traces["tension_run_on_max"] = on = Trace(head.tensions[:, 0], step)
+    traces["tension_run_off_min"] = off = Trace(head.tensions[:, -1], step, -1)
     top, top_at = on.extreme()
     low, low_at = off.extreme()
     values["tension_run_on_max"] = top, {"time": top_at}
@@ -87,7 +87,7 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
         values["slip_utilisation_max"] = max(used, key=lambda one: one[0])
         values["slip_reserve_min"] = min(left, key=lambda one: one[0])
     if not line.fixed_length:
-        apart = belt - np.array([seen.behind - seen.creep for seen in head])
+        apart = belt - (head.behind - head.creep)
         way = np.concatenate([[0.0], np.cumsum((apart[1:] + apart[:-1]) / 2)]) * step / 2
         values["takeup_movement"] = float(way.max() - way.min()), {}
     if case.brings_to_rest:
@@ -131,9 +131,7 @@ def _of_strand(drawn: Drawn, ready: Set, strand: int) -> tuple[Placed, Placed]:
     behind, before = (drawn.head, drawn.tail) if strand == RETURN else (drawn.tail, drawn.head)
     middle, whole = float(places[ready.course.tail]), float(places[-1])
     start, end = (0.0, middle) if strand == RETURN else (middle, whole)
-    histories = [(np.array([seen.tensions[-1] for seen in behind]), start)]
-    rows = list(zip(*(seen.tensions for seen in before), strict=True))
-    histories += [(np.array(row), end) for row in rows[:-1]]
+    histories = [(behind.tensions[:, -1], start), *((row, end) for row in before.tensions.T[:-1])]
     highs = [(*peaks.largest(history, step), place) for history, place in histories]
     lows = [(*peaks.smallest(history, step), place) for history, place in histories]
     high, low = ((one.value, one.time, one.place) for one in inside)
@@ -153,11 +151,10 @@ def _asked(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
     step = ready.course.step
     force = np.zeros(len(drawn.times))
     for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
-        if station.imposed is None:
+        if not station.imposes:
             continue
-        speed = np.array([seen.belt for seen in history])
         mass = sum(drum.mass for drum in station.drums)
-        force += np.array([seen.tensions[0] - seen.tensions[-1] for seen in history]) + mass * np.gradient(speed, step)
+        force += history.tensions[:, 0] - history.tensions[:, -1] + mass * np.gradient(history.belt, step)
     found.traces["starting_force_needed"] = trace = Trace(force, step)
     needed, at = trace.extreme()
     available = starting_force(case.spec)
@@ -189,7 +186,7 @@ def _longest_way(case: Moving, drawn: Drawn, values: Values) -> Values:
     if not math.isfinite(head):
         return {"stop_distance_max": (head, {})}
     step = float(drawn.times[1])
-    speeds = np.array([seen.belt for seen in drawn.tail])
+    speeds = drawn.tail.belt
     tail = np.concatenate([[0.0], np.cumsum((speeds[1:] + speeds[:-1]) / 2)]) * step
     inside, length = drawn.longest_way, case.line.back.length
     ways = (head, 0.0), (float(tail.max()), length), (inside.value, inside.place)
@@ -197,14 +194,13 @@ def _longest_way(case: Moving, drawn: Drawn, values: Values) -> Values:
     return {"stop_distance_max": (way, {"position": place})}
 
 
-def _of_drives(found: OneGrid, case: Moving, station: Station, history: tuple[Seen, ...], step: float) -> None:
+def _of_drives(found: OneGrid, case: Moving, station: Station, history: Track, step: float) -> None:
     """Loads of the drums that have a drive."""
     values, traces, names = found.values, found.traces, case.spec.all_drives
     for index, drum in enumerate(station.drums):
         if drum.name not in names:
             continue
-        on = np.array([seen.tensions[index] for seen in history])
-        off = np.array([seen.tensions[index + 1] for seen in history])
+        on, off = history.tensions[:, index], history.tensions[:, index + 1]
         for name, trace in (("tension_run_on_max", Trace(on, step)), ("tension_run_off_min", Trace(off, step, -1))):
             value, at = trace.extreme()
             traces[of(name, drum.name)] = trace
@@ -212,17 +208,14 @@ def _of_drives(found: OneGrid, case: Moving, station: Station, history: tuple[Se
         given = names[drum.name].drum
         if given.friction is None:
             continue
-        belt = np.array([seen.belt for seen in history])
+        belt, slips = history.belt, history.slips[:, index] != 0
         tight, slack = np.maximum(on, off), np.minimum(on, off)
         lift = case.line.belt_line_mass * belt**2
         exponent = given.friction * given.wrap
-        slipped = any(seen.slips[index] for seen in history)
-        if slipped:
-            first = next(k for k, seen in enumerate(history) if seen.slips[index])
-            used, at = math.nextafter(1, 2), first * step
+        if slips.any():
+            used, at = math.nextafter(1, 2), int(slips.argmax()) * step
             reserve = math.nextafter(1, 0)
-            turning = np.array([seen.drums[index] for seen in history])
-            found.slid[drum.name] = float(np.abs(turning - belt).max()) * step
+            found.slid[drum.name] = float(np.abs(history.drums[:, index] - belt).max()) * step
         else:
             with_lift = Trace(capstan.slip_utilisation(tight, slack, lift, exponent), step)
             without = Trace(capstan.slip_utilisation(tight, slack, 0.0, exponent), step)

@@ -1,7 +1,6 @@
 """Runs of the whole belt in cells on three grids, each until its scene is over."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from ptmcalc.base.estimate import Estimate, Interval
@@ -15,7 +14,7 @@ from ptmcalc.machines.conveyor.waves.cell_loads import OneGrid, Values, loads_of
 from ptmcalc.machines.conveyor.waves.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.waves.last_motions import Kept
 from ptmcalc.machines.conveyor.waves.unfinished_stop import time_to_rest, unfinished
-from ptmcalc.numerics.belt.march import Drawn, march
+from ptmcalc.numerics.belt.march import Drawn, Until, march
 from ptmcalc.numerics.belt.station import Seen
 
 _CELLS, _CELLS_OF_JUMP = 60, 240
@@ -114,9 +113,11 @@ def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool, most: 
         case = replace(case, window=_LONGEST * usual)  # ends when no drum slips any more
     while True:
         ready = set_up(case, carried, cells)
-        still = _until_it_grips(case, usual) if starts and whole else _still(case)
         parts = ready.course, ready.head, ready.tail, ready.tension
-        drawn = march(*parts, case.speed, case.window, still, ready.give, ready.travel)
+        until = _until(case, usual if starts and whole else math.inf)
+        drawn = march(*parts, case.speed, case.window, until, ready.give, ready.travel)
+        if drawn.lost_grip:
+            raise GripLostError(float(drawn.times[-1]))
         work += drawn.updates
         if not whole or not unfinished(case, drawn):
             return drawn, ready, work
@@ -127,15 +128,13 @@ def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool, most: 
         case = replace(case, window=longer)
 
 
-def _until_it_grips(case: Moving, usual: float) -> Callable[[float, Seen], bool]:
-    """Ends the march of a start after its usual window [s], when no drum at the head slips."""
-    kept = _keeps_its_grip(case)
-
-    def ends(time: float, head: Seen) -> bool:
-        kept(time, head)
-        return time >= usual and not _slides(head)
-
-    return ends
+def _until(case: Moving, grips_from: float) -> Until:
+    """What ends a march: rest, at a time after the first pulley at the head came to rest; of a start its usual window
+    [s], once no pulley at the head slips; a slipping pulley at the head that the belt pushes harder than it ever pulled
+    while it ran evenly, since grip below 0 would drive it, faster and faster."""
+    lowest = -max(map(abs, (*case.line.static_ends(RETURN), *case.line.static_ends(CARRY))))
+    rests_for = 2 * case.line.contour_time if case.brings_to_rest and math.isinf(grips_from) else math.inf
+    return Until(rests_for, grips_from, lowest)
 
 
 def slips_on(case: Moving, drawn: Drawn) -> bool:
@@ -146,36 +145,6 @@ def slips_on(case: Moving, drawn: Drawn) -> bool:
 def _slides(seen: Seen) -> bool:
     """Whether a drum turns at another speed than the belt; one that gives all its grip at the belt's speed does not."""
     return any(sense and drum != seen.belt for sense, drum in zip(seen.slips, seen.drums, strict=True))
-
-
-def _still(case: Moving) -> Callable[[float, Seen], bool]:
-    """Ends the march of a stop: so long after the first drum at the head came to rest."""
-    rested: list[float] = []
-    kept = _keeps_its_grip(case)
-
-    def still(time: float, head: Seen) -> bool:
-        kept(time, head)
-        if case.brings_to_rest and not rested and head.belt <= 0:
-            rested.append(time)
-        return bool(rested) and time >= rested[0] + 2 * case.line.contour_time
-
-    return still
-
-
-def _keeps_its_grip(case: Moving) -> Callable[[float, Seen], None]:
-    """Stops the march of a belt that its slipping drum has lost.
-
-    Raises:
-        GripLostError: a drum at the head slips and its belt pushes harder than it ever pulled while it ran evenly:
-            grip below 0 would drive it, faster and faster.
-    """
-    lowest = -max(map(abs, (*case.line.static_ends(RETURN), *case.line.static_ends(CARRY))))
-
-    def kept(time: float, head: Seen) -> None:
-        if any(head.slips) and min(head.tensions) < lowest:
-            raise GripLostError(time)
-
-    return kept
 
 
 def _estimate(name: str, value: float, sides: Interval) -> Estimate:

@@ -11,12 +11,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ptmcalc.machines.conveyor.brakes import braked_shafts, brakes_of, braking
+from ptmcalc.machines.conveyor.brakes import Braking, braked_shafts, brakes_of, braking
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_force, drive_mass
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Jam, Start
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber
+from ptmcalc.numerics.belt.library import OverTime
 from ptmcalc.numerics.belt.march import place_at
 from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, no_brake
 from ptmcalc.numerics.belt.travel import Travel
@@ -25,9 +26,6 @@ _FAST = 1e30
 """Friction that locks the drive pulley until its drives overcome the static tension [N]: larger than any tension. A
 numerical choice: infinity would leave differences undefined; a value near the tensions would release the pulley
 early."""
-_ON_THE_GRID = 1e-6
-"""Distance of a time from a grid line, relative to the step [1], that counts as rounding. A numerical choice. A smaller
-value interpolates times on the grid; a larger one shifts times between grid lines."""
 _MOST_GRIP = 700.0
 """Exponent mu alpha above which a pulley does not slip at any tension [1]. Resolution of the floating point: e^710
 overflows. A smaller value would treat strong friction as no slip."""
@@ -122,16 +120,15 @@ def rubber_of(case: Moving, cells: int) -> Rubber | None:
     return Rubber(damping.stiffening, damping.time)
 
 
-def _imposed(case: Moving, at: str, times: FloatArray) -> Callable[[float], float] | None:
-    """Speed at which drums are held, looked up on the grid of time: by a jam, or by drives that control it."""
+def _imposed(case: Moving, at: str, times: FloatArray) -> OverTime | None:
+    """Speed at which drums are held: by a jam, or by drives that control it."""
     if isinstance(case.scene, Jam):
         imposed = _blocked(case.speed, case.scene.time) if case.scene.at == at else None
     else:
         imposed = case.imposed if any(drive.at == at for drive in case.spec.all_drives.values()) else None
     if imposed is None:
         return None
-    table, step = [imposed(time) for time in times.tolist()], float(times[1])
-    return lambda time: table[round(time / step)]
+    return OverTime(np.array([imposed(time) for time in times.tolist()]), float(times[1]))
 
 
 def _blocked(speed: float, time: float) -> Callable[[float], float]:
@@ -161,7 +158,7 @@ def _tensions(case: Moving, course: Course) -> FloatArray:
 def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pulled: float) -> list[Drum]:
     spec, line = case.spec, case.line
     drives = [(name, drive) for name, drive in spec.all_drives.items() if drive.at == at]
-    brakes = [braking(spec, brake).at for brake in brakes_of(spec, case.scene).values() if brake.at == at]
+    brakes = [braking(spec, brake) for brake in brakes_of(spec, case.scene).values() if brake.at == at]
     backstop = at == "head" and spec.backstop is not None
     if not drives:
         return [Drum("tail", line.tail_mass, brake=_braked(np.zeros_like(times), float(times[1]), brakes))]
@@ -179,7 +176,7 @@ def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pu
             Drum(
                 name,
                 mass,
-                case.curves.get(name) or _read(forces[name], step),
+                case.curves.get(name) or OverTime(forces[name], step),
                 _braked(held, step, brakes if last else ()),
                 exponent if "slip" in carried and exponent is not None and exponent < _MOST_GRIP else None,
                 one_way=backstop,
@@ -194,27 +191,8 @@ def _holds(case: Moving, name: str) -> bool:
     return isinstance(case.scene, Start) and case.imposed is None and name not in case.curves
 
 
-def _read(values: FloatArray, step: float) -> Callable[[float, float], tuple[float, float]]:
-    """A force sampled on the grid of time."""
-    table = values.tolist()
-    return lambda time, speed: (table[round(time / step)], 0.0)
-
-
-def _braked(held: FloatArray, step: float, brakes: Sequence[Callable[[float], float]]) -> Callable[[float], float]:
-    """What brakes hold over time: looked up at every step several times, and between steps where a drum is caught."""
+def _braked(held: FloatArray, step: float, brakes: Sequence[Braking]) -> OverTime | Callable[[float], float]:
+    """Capacity of brakes over time, and of friction that holds a pulley before a start."""
     if not brakes and not held.any():
         return no_brake
-    table: list[float] = held.tolist()
-    known: dict[int, float] = {}
-
-    def capacity(time: float) -> float:
-        place = time / step
-        k = round(place)
-        if abs(place - k) > _ON_THE_GRID:
-            return table[k] + sum((brake(time) for brake in brakes), 0.0)
-        found = known.get(k)
-        if found is None:
-            found = known[k] = table[k] + sum((brake(k * step) for brake in brakes), 0.0)
-        return found
-
-    return capacity
+    return OverTime(held, step, tuple((brake.force, brake.delay, brake.rise) for brake in brakes))

@@ -93,7 +93,7 @@ def _ending(case: Moving, runs: Sequence[CellRun], slipping: bool) -> Ending | N
     statics = [line.static(which, at / line.strand(which).length) for which, at in zip((0, 1), middles, strict=True)]
     slowest = min(run.drawn.head[-1].belt, *run.drawn.head[-1].drums)
     end = ending(line, slowest, slipping, replace(row, pulls=row.pulls - np.concatenate(statics)), course.tail)
-    if end.state or run.ready.travel is None or run.ready.head.imposed is None or run.ready.tail.imposed is None:
+    if end.state or run.ready.travel is None or not (run.ready.head.imposes and run.ready.tail.imposes):
         return end
     shifts = f"belt at {slowest:.3g} m/s, the load share of the drives at head and tail still changes"
     return replace(end, drifts=True, state=shifts)

@@ -3,8 +3,6 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-import numpy as np
-
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Found
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
@@ -23,13 +21,13 @@ engineering choice. A smaller value reports slow stops as endless."""
 def unfinished(case: Moving, drawn: Drawn) -> bool:
     """Whether the belt of a stop that comes to an end as a rigid body still runs at the end of a march."""
     rests = case.brings_to_rest and math.isfinite(case.rigid_time)
-    return rests and not any(seen.belt <= 0 for seen in drawn.head)
+    return rests and not (drawn.head.belt <= 0).any()
 
 
 def _mean_speed(case: Moving, drawn: Drawn, until: float = 1.0) -> float:
     """Mean speed of the belt at the head over a contour time that ends at a part of the window [m/s]: waves that go
     round have that period."""
-    belt = np.array([seen.belt for seen in drawn.head])
+    belt = drawn.head.belt
     end = max(round(until * len(belt)), 1)
     many = max(round(case.line.contour_time / float(drawn.times[1])), 1)
     return float(belt[max(end - many, 0) : end].mean())
@@ -89,7 +87,7 @@ def loads_so_far(case: Moving, loads: Mapping[str, Found], grids: Sequence[Drawn
 
 def _way_so_far(drawn: Drawn) -> float:
     """Distance of the belt at the head in the window [m]."""
-    belt = np.array([seen.belt for seen in drawn.head])
+    belt = drawn.head.belt
     return float((belt[1:] + belt[:-1]).sum()) / 2 * float(drawn.times[1])
 
 

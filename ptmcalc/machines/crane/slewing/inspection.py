@@ -47,10 +47,10 @@ def _exclude(spec: SlewingCrane, scene: SlewingScene, time: float, key: KeyPath)
     torque = model.motor_torque(spec, scene)
     if torque is None:
         return
-    own = chain.start_time(spec, scene)
+    own = model.start_time(spec, scene)
     if abs(own / time - 1) <= _TIME_TOLERANCE:
         return
-    needed = chain.start_torque(spec, scene, time) / (spec.gear.ratio * spec.gear.efficiency)
+    needed = model.start_torque(spec, scene, time) / (spec.gear.ratio * spec.gear.efficiency)
     given = spec.motor.count
     shown, wanted = (units.show(one / given, units.TORQUE) for one in (torque, needed))
     asked = units.show(time, units.TIME)
@@ -71,7 +71,7 @@ def _exclude(spec: SlewingCrane, scene: SlewingScene, time: float, key: KeyPath)
 
 def _worth(spec: SlewingCrane, scene: SlewingScene, time: float, needed: float) -> str:
     """The equivalent torques of both readings: of the torque, and of the handbook's chain with the torque it needs."""
-    own, torque = chain.start_time(spec, scene), model.motor_torque(spec, scene)
+    own, torque = model.start_time(spec, scene), model.motor_torque(spec, scene)
     if torque is None or not math.isfinite(own):
         return ""
     by_torque = _equivalent(spec, scene, own, torque, rounded=False)
@@ -80,7 +80,7 @@ def _worth(spec: SlewingCrane, scene: SlewingScene, time: float, needed: float) 
 
 
 def _equivalent(spec: SlewingCrane, scene: SlewingScene, start: float, torque: float, *, rounded: bool) -> str:
-    times = chain.phases(spec, (start, spec.speed * start / 2), chain.allowed_stop(spec))
-    at = chain.torques(spec, scene, model.at_column(spec, torque), by_direction=False)
+    times = model.phases(spec, (start, spec.speed * start / 2), model.allowed_stop(spec))
+    at = model.phase_torques(spec, scene, model.at_column(spec, torque), by_direction=False)
     found = chain.loads(spec, scene, times, at, rounded=rounded, even=True)["torque_equivalent"]
     return units.show(found, units.TORQUE)

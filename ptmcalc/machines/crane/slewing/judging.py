@@ -6,7 +6,6 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import number_at
 from ptmcalc.contract.check import Check
 from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 
 OneCheck = Check[SlewingCrane, SlewingScene]
@@ -21,7 +20,7 @@ def reaches(spec: SlewingCrane, scene: SlewingScene) -> bool:
 
 def starts(spec: SlewingCrane, scene: SlewingScene) -> bool:
     """Whether the rigid crane starts: of one that stalls (CRN101, CRN118) no stop is asked."""
-    return math.isfinite(start_of(spec, scene)[0]) and reaches(spec, scene)
+    return math.isfinite(model.start_of(spec, scene)[0]) and reaches(spec, scene)
 
 
 def turns(spec: SlewingCrane, scene: SlewingScene) -> bool:

@@ -1,11 +1,12 @@
-"""What a slewing crane's file comes to: inertias, resistances and torques about the slewing axis."""
+"""What a slewing crane's file comes to: inertias and torques about the slewing axis, and the phases of its rotation."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from ptmcalc.components.motor import ConverterMotor
-from ptmcalc.laws import bodies, inertia, slewing
+from ptmcalc.laws import bodies, brake, inertia, slewing
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 _FLOWS = {"eta": "drive", "one": "energy", "inverse": "brake"}
@@ -172,3 +173,92 @@ def at_column(spec: SlewingCrane, motor_torque: float) -> float:
 def start_time_of(time: float | None, angle: float | None, speed: float) -> float | None:
     """A start as its time, be it given by its time or its angle [s]."""
     return time if time is not None else 2 * angle / speed if angle is not None else None
+
+
+# -- the phases of a rotation ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Phases:
+    """Times [s] and angles [rad] of start, steady slewing and stop."""
+
+    start: tuple[float, float]
+    steady: tuple[float, float]
+    brake: tuple[float, float]
+
+    @property
+    def whole(self) -> float:
+        """Time of the rotation [s]."""
+        return self.start[0] + self.steady[0] + self.brake[0]
+
+
+@dataclass(frozen=True, slots=True)
+class PhaseTorques:
+    """At the slewing axis, and on the fast shaft of the gearbox [N*m]."""
+
+    start: float
+    steady: float
+    inertia_brake: float
+    brake: float
+    fast: tuple[float, float, float]
+    """of start, steady slewing and stop"""
+
+
+def start_time(spec: SlewingCrane, scene: SlewingScene, rule: str = "eta") -> float:
+    """Time of a start with the motor's mean torque; infinite where it stalls [s]."""
+    torque = motor_torque(spec, scene)
+    assert torque is not None
+    total = slew_inertia(spec, scene) + rotor_at_column(spec, rule)
+    driving, resistance = at_column(spec, torque), steady_torque(spec, scene)
+    return float(slewing.uniform_start_time(total, spec.speed, driving, resistance))
+
+
+def start_torque(spec: SlewingCrane, scene: SlewingScene, time: float, rule: str = "eta") -> float:
+    """Torque at the column that a start of a given time takes [N*m]."""
+    total = slew_inertia(spec, scene) + rotor_at_column(spec, rule)
+    return float(slewing.torque_for_start(total, spec.speed, time, steady_torque(spec, scene)))
+
+
+def phases(spec: SlewingCrane, start: tuple[float, float], stop: tuple[float, float]) -> Phases:
+    """A rotation whose start and stop are known: steady slewing fills what is left of the angle."""
+    steady = max(spec.cycle.rotation - start[1] - stop[1], 0.0)
+    return Phases(start, (steady / spec.speed, steady), stop)
+
+
+def allowed_stop(spec: SlewingCrane) -> tuple[float, float]:
+    """An even stop over the allowed angle: time [s] and angle [rad]."""
+    return brake.uniform_stop_time(spec.cycle.brake_angle, spec.speed), spec.cycle.brake_angle
+
+
+def phase_torques(
+    spec: SlewingCrane, scene: SlewingScene, torque_start: float, rule: str = "eta", *, by_direction: bool
+) -> PhaseTorques:
+    """Torques of the phases: as the handbook carries rotor and losses, or `by_direction` of the power in the gear.
+
+    In an even stop over the allowed angle a brake on the motor shaft holds the rotor, so that the gear carries what the
+    crane alone needs, and its losses help the brake; one on the slewing axis has the rotor driving through the gear.
+    """
+    gear, steady = spec.gear, steady_torque(spec, scene)
+    braked = slew_inertia(spec, scene)
+    on_axis = spec.brake is not None and spec.brake.shaft == "crane"
+    if on_axis or not by_direction:
+        braked += rotor_at_column(spec, rule)
+    inertia = float(slewing.torque_for_start(braked, spec.speed, allowed_stop(spec)[0], 0.0))
+    stop = inertia + driving_wind(spec, scene) - spec.friction
+    forward = gear.ratio * gear.efficiency
+    fast = stop / forward
+    if by_direction and on_axis:
+        fast = rotor_at_column(spec, rule) * spec.speed / allowed_stop(spec)[0] / forward
+    elif by_direction and stop > 0:
+        fast = stop * gear.back / gear.ratio
+    return PhaseTorques(torque_start, steady, inertia, stop, (torque_start / forward, steady / forward, fast))
+
+
+def start_of(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float, str]:
+    """Time of the start [s], its torque at the column [N*m], and the name of the load that was derived."""
+    torque = motor_torque(spec, scene)
+    if torque is not None:
+        return start_time(spec, scene), at_column(spec, torque), "start_time"
+    given = start_time_of(spec.cycle.start_time, spec.cycle.start_angle, spec.speed)
+    assert given is not None
+    return given, start_torque(spec, scene, given), "torque_start"

@@ -21,7 +21,6 @@ from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.rotation.loads import OF_THE_CHAIN
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
@@ -147,7 +146,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     **Source** the load's equation with the rope as a constraint; Hairer, Nørsett and Wanner, Solving Ordinary
     Differential Equations I, 2nd ed.
     """
-    at = chain.torques(spec, scene, start_of(spec, scene)[1], by_direction=True)
+    at = model.phase_torques(spec, scene, model.start_of(spec, scene)[1], by_direction=True)
     found, steps, end = [], 0, 0.0
     for tolerance in lumped.TOLERANCES[level : level + 2]:
         crane, phases = _rotated(spec, scene, carried, tolerance)
@@ -161,7 +160,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
 
 def _rotated(
     spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], tolerance: float
-) -> tuple[_Crane, chain.Phases]:
+) -> tuple[_Crane, model.Phases]:
     load = spec.load
     assert load is not None
     assert load.rope_length is not None
@@ -170,7 +169,7 @@ def _rotated(
         load.rope_length, spec.gear.efficiency, spec.gear.back, spec.gravity, tolerance,
     )  # fmt: skip
     crane.state[2:5] = 0.0, 0.0, -load.rope_length
-    planned = model.stop(spec, scene) or chain.allowed_stop(spec)
+    planned = model.stop(spec, scene) or model.allowed_stop(spec)
     start = _started(spec, scene, crane, carried)
     steady = max(spec.cycle.rotation - start[1] - planned[1], 0.0)
     crane.go(lambda t, y: 0.0, crane.time + steady / spec.speed)
@@ -179,7 +178,7 @@ def _rotated(
     stands = crane.time - since
     after = (2 + _DRAGGED) * _PERIODS_AFTER * _period(crane)
     _after(spec, scene, crane, since + max(2 * planned[0], stands) + after)
-    return crane, chain.Phases(start, (steady / spec.speed, steady), (stands, crane.farthest - before))
+    return crane, model.Phases(start, (steady / spec.speed, steady), (stands, crane.farthest - before))
 
 
 def _period(crane: _Crane) -> float:
@@ -190,7 +189,7 @@ def _started(spec: SlewingCrane, scene: SlewingScene, crane: _Crane, carried: fr
     """The start; its time and angle."""
     given = model.motor_torque(spec, scene)
     if given is None or spec.gear.back <= 0:
-        time = start_of(spec, scene)[0]
+        time = model.start_of(spec, scene)[0]
         crane.go(lambda t, y: spec.speed / time, time)
         crane.state[1] = spec.speed
         return time, float(crane.state[0])
@@ -298,8 +297,8 @@ def cost(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level
     if load is None or load.rope_length is None:
         return 0.0
     omega = math.sqrt((spec.gravity + spec.speed**2 * load.radius) / load.rope_length)
-    planned = model.stop(spec, scene) or chain.allowed_stop(spec)
-    whole = start_of(spec, scene)[0] + spec.cycle.rotation / spec.speed + planned[0]
+    planned = model.stop(spec, scene) or model.allowed_stop(spec)
+    whole = model.start_of(spec, scene)[0] + spec.cycle.rotation / spec.speed + planned[0]
     if not math.isfinite(whole):
         return 1e3
     return 0.1 + 2.5e-3 * (1 + level) * (whole * omega + 2 * math.pi * _PERIODS_AFTER)

@@ -3,6 +3,7 @@
 `Stacker` is either type; what only one has is asked for by `isinstance`.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal, TypeVar
 
@@ -15,7 +16,7 @@ from ptmcalc.laws import carriage, inertia, reeving
 from ptmcalc.machines.crane.stacking.keys.drives import Rotation, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import StackerScene, Start
+from ptmcalc.machines.crane.stacking.scenes import ObstacleScene, StackerScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 FloatArray = NDArray[np.float64]
@@ -219,6 +220,17 @@ def driving(spec: Stacker, scene: StackerScene) -> Push:
     if block.acceleration is not None:
         return Push("ramp", block.acceleration, block.ramp_rise)
     return Push("force", filled(block.driving_force) - (block.resistance or 0.0), block.driving_rise)
+
+
+def pushed(spec: Stacker, scene: ObstacleScene) -> float:
+    """Force that drives the base on through the collision; below 0 where it is braked [N]."""
+    if scene.drive == "on":
+        push = driving(spec, scene)
+        return push.size if push.kind == "force" else math.inf
+    if scene.brake == "on":
+        brake = stopping(spec, scene)
+        return -brake.size if brake.kind == "force" else -math.inf
+    return -(travel(spec, scene).resistance or 0.0)
 
 
 def _net(block: Travel, torque: Torque) -> Torque:

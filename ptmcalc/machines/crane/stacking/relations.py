@@ -5,10 +5,11 @@ from collections.abc import Mapping
 
 from ptmcalc.contract.relation import Relation, computed, ordered
 from ptmcalc.contract.result import of
-from ptmcalc.machines.crane.stacking import events, model
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.columns import swinging
 from ptmcalc.machines.crane.stacking.loads import MODES
-from ptmcalc.machines.crane.stacking.mast.properties import swinging
 from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.rail.base import wheel_load
 from ptmcalc.machines.crane.stacking.scenes import (
     Brake,
     DrivenScene,
@@ -83,7 +84,7 @@ def _gear_factor(spec: Stacker, scene: StackerScene, loads: Loads) -> float:
 def _wheel_force(spec: Stacker, scene: StackerScene, loads: Loads) -> float:
     assert isinstance(spec, RackStacker)
     assert isinstance(scene, RailScene)
-    return loads["phi4"] * events.wheel_load(spec, scene)
+    return loads["phi4"] * wheel_load(spec, scene)
 
 
 def _marks(combination: str, load: str, scene: type[Scene]) -> Relation:

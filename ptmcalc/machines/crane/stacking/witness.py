@@ -9,7 +9,7 @@ import math
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking.events import catch_of, push_of
+from ptmcalc.machines.crane.stacking.fork.cases import catch_of, push_of
 from ptmcalc.machines.crane.stacking.fork.caught import with_factor
 from ptmcalc.machines.crane.stacking.fork.effects import CATCHING, LIMITER, PUSHING, SLOPE, YIELDING
 from ptmcalc.machines.crane.stacking.fork.effects import RACK as RACK_GIVES

@@ -1,7 +1,8 @@
-"""A travelling crane as numbers: its masses and where they are, what resists it, what drives it."""
+"""A travelling crane as numbers: masses and where they are, what resists and drives it, its state at an instant."""
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +22,21 @@ def filled(value: float | None) -> float:
     """A value the file or an assumption has given by now."""
     assert value is not None, "assumptions are filled in before anything is computed"
     return value
+
+
+class State(NamedTuple):
+    """The crane at some instants, numbers or arrays alike; along the rails positive in the direction of travel."""
+
+    acceleration: float | FloatArray
+    """of the crane [m/s^2]"""
+    pull: float | FloatArray
+    """of the load on the crane, against the travel [N]"""
+    weight: float | FloatArray
+    """of the load on the crane, downwards [N]"""
+    traction: float | FloatArray
+    """of the driven wheels on the crane, in the direction of travel [N]"""
+    wind: float | FloatArray
+    """on what travels, against the travel [N]"""
 
 
 # -- masses ---------------------------------------------------------------------------------------------------------

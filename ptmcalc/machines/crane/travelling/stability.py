@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.model import State, filled
 from ptmcalc.machines.crane.travelling.scenes import Storm, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.machines.crane.travelling.sway.course import State
 
 FloatArray = NDArray[np.float64]
 

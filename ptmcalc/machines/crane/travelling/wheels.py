@@ -8,10 +8,9 @@ from numpy.typing import NDArray
 
 from ptmcalc.laws import skid, wheel_loads
 from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import CORNERS, filled
+from ptmcalc.machines.crane.travelling.model import CORNERS, State, filled
 from ptmcalc.machines.crane.travelling.scenes import TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.machines.crane.travelling.sway.course import State
 
 FloatArray = NDArray[np.float64]
 

@@ -20,9 +20,9 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.rail.effects import RAIL
 from ptmcalc.machines.crane.travelling.scenes import RailStep, Skew, Storm
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.machines.crane.travelling.sway.effects import RAIL
 from ptmcalc.machines.crane.travelling.witness_collision import COLLISION_IN_TIME, SOURCE, priced
 from ptmcalc.witness import lumped, lumped_history, two_runs
 

@@ -3,14 +3,11 @@
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from ptmcalc.machines.drivetrain.model import REACHED, Case
+from ptmcalc.machines.drivetrain.motion.course import Course
 from ptmcalc.numerics.train.parts import Drive, Governed, Spring, Straight
 from ptmcalc.numerics.train.signals import Signal
-
-if TYPE_CHECKING:
-    from ptmcalc.machines.drivetrain.motion.simulation import Course
 
 _STILL = 1e-9
 """Speed relative to the largest of the train [1] that counts as standstill: rounding of a body at rest. A numerical
@@ -51,7 +48,7 @@ def _last(signal: Signal) -> float:
     return max([signal.times[-1], signal.decay_start if signal.decay else 0.0, *periods])
 
 
-def approached(course: "Course") -> dict[str, float]:
+def approached(course: Course) -> dict[str, float]:
     """Time at which the motion reaches each place that the file announces and the run has not reached [s].
 
     Such a place is a point of a torque over the position ahead of the body, or the contact of a link that has never
@@ -61,7 +58,7 @@ def approached(course: "Course") -> dict[str, float]:
     return found | {name: course.record.time + time for name, time in _contacts(course)}
 
 
-def _tables(course: "Course") -> Iterator[tuple[str, float]]:
+def _tables(course: Course) -> Iterator[tuple[str, float]]:
     for drive in course.case.train.drives:
         law = drive.stages[0].law
         if isinstance(law, Straight) and law.on == "position":
@@ -85,7 +82,7 @@ def _left_of_table(law: Straight, low: float, high: float, *, forward: bool) -> 
     return max(max(changing, default=high) - high, 0.0)
 
 
-def _contacts(course: "Course") -> Iterator[tuple[str, float]]:
+def _contacts(course: Course) -> Iterator[tuple[str, float]]:
     for spring in course.case.train.springs:
         index = course.torque(spring.name)
         if not spring.play or index is None or course.largest(index)[0] > 0:
@@ -95,7 +92,7 @@ def _contacts(course: "Course") -> Iterator[tuple[str, float]]:
             yield spring.name, left / rate
 
 
-def _left_of_play(course: "Course", spring: Spring) -> tuple[float, float]:
+def _left_of_play(course: Course, spring: Spring) -> tuple[float, float]:
     """Distance of an open link from the contact that it approaches, and its closing speed."""
     names = course.case.bodies
     apart, rate = (_last_of(course, what, names[spring.first]) for what in ("position", "speed"))
@@ -106,13 +103,13 @@ def _left_of_play(course: "Course", spring: Spring) -> tuple[float, float]:
     return spring.play / 2 - side * (apart - spring.rest), side * rate
 
 
-def _last_of(course: "Course", what: str, name: str) -> float:
+def _last_of(course: Course, what: str, name: str) -> float:
     index = course.index(what, name)
     assert index is not None
     return float(course.record.last[index])
 
 
-def _still(course: "Course") -> float:
+def _still(course: Course) -> float:
     """Speed below which a body counts as at rest."""
     record, largest = course.record, 0.0
     for name in course.case.bodies:

@@ -10,8 +10,8 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Failure, Found, Result, family, of
 from ptmcalc.machines.drivetrain.model import REACHED, Case, Part, brake_of, case_of, rigid
-from ptmcalc.machines.drivetrain.motion import announced, bars, simulation
-from ptmcalc.machines.drivetrain.motors import overhauling
+from ptmcalc.machines.drivetrain.motion import announced, bars, overhauled_motors, simulation
+from ptmcalc.machines.drivetrain.motion.course import Course
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, TrainScene
 from ptmcalc.numerics.train.parts import Governed, Grip
 from ptmcalc.numerics.train.signals import Signal
@@ -67,7 +67,7 @@ that happens to be computed, but for a part at rest."""
 
 def steady_runs(
     spec: Drivetrain, scene: TrainScene, case: Case, end: float, tolerance: float, doublings: int = DOUBLINGS
-) -> tuple[tuple[simulation.Course, ...], dict[str, Interval], str]:
+) -> tuple[tuple[Course, ...], dict[str, Interval], str]:
     """Runs over a window after which no torque and no speed grows, and what can still change after it.
 
     A start or stop whose torque peaks lie in the second half of the window, or whose extreme speeds do and grow on as
@@ -113,9 +113,7 @@ def steady_runs(
     return runs, beyond, f"`{named[0]}` is not steady" if named else ""
 
 
-def _past_approached(
-    scene: TrainScene, case: Case, runs: tuple[simulation.Course, ...], tolerance: float
-) -> tuple[simulation.Course, ...]:
+def _past_approached(scene: TrainScene, case: Case, runs: tuple[Course, ...], tolerance: float) -> tuple[Course, ...]:
     """Runs that contain the places which the motion approaches, each followed by the usual window.
 
     The runs stay as they are where a longer one takes more than `simulation.LONG` seconds.
@@ -131,7 +129,7 @@ def _past_approached(
     return runs
 
 
-def _announced_later(course: simulation.Course) -> str:
+def _announced_later(course: Course) -> str:
     """The first event that the file announces and the run does not contain; empty without one."""
     end = course.record.time
     times = {name: time for name, time in announced.times(course.case).items() if time > end}
@@ -142,7 +140,7 @@ def _announced_later(course: simulation.Course) -> str:
     return f"`{min(places, key=places.__getitem__)}` is not reached" if places else ""
 
 
-def _by_anything(spec: Drivetrain, course: simulation.Course) -> dict[str, Interval]:
+def _by_anything(spec: Drivetrain, course: Course) -> dict[str, Interval]:
     """What an event after the window can add to each load: anything, except to a start that is over."""
     names = set(simulation.readings(spec, course)) | {
         of(load, name) for load in ("torque_steady", "dynamic_factor") for name in (*spec.links, *spec.gears)
@@ -163,7 +161,7 @@ def _outward(name: str, more: float) -> Interval:
     return Interval(-_MORE * more, 0.0) if family(name) == "speed_min" else Interval(0.0, _MORE * more)
 
 
-def _speeds_ahead(spec: Drivetrain, scene: TrainScene, course: simulation.Course) -> dict[str, tuple[float, float]]:
+def _speeds_ahead(spec: Drivetrain, scene: TrainScene, course: Course) -> dict[str, tuple[float, float]]:
     """Growth of the extreme speeds of the rigid train while the time doubles, and their size, by the name of the load.
 
     Those of a run which lie in the second half of its window: a motor above the speed that ends its start goes on to
@@ -190,9 +188,7 @@ def _speeds_ahead(spec: Drivetrain, scene: TrainScene, course: simulation.Course
     return {name: (more, size) for name, (more, size) in grown.items() if more > _OF_SPEEDS * size}
 
 
-def completed(
-    result: Result, spec: Drivetrain, scene: TrainScene, course: simulation.Course, tolerance: float
-) -> Result:
+def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: Course, tolerance: float) -> Result:
     """A result with what its run tells of the end of the start or stop.
 
     A motion that gains nothing while its time doubles never ends: the check of it fails. One that goes on is followed
@@ -208,7 +204,7 @@ def completed(
         }
         result = replace(result, loads=defined)
     if len(course.case.train.springs) == len(spec.links):  # not a train whose links are made rigid
-        reserves, failures = overhauling.seen(spec, scene, course)
+        reserves, failures = overhauled_motors.seen(spec, scene, course)
         result = replace(result, loads={**result.loads, **reserves}, failures=(*result.failures, *failures))
     for found in _endings(spec, scene, course, tolerance):
         loads = {name: found.loads.get(name, one) for name, one in result.loads.items()}
@@ -218,7 +214,7 @@ def completed(
     return result
 
 
-def _endings(spec: Drivetrain, scene: TrainScene, course: simulation.Course, tolerance: float) -> Iterator[Ending]:
+def _endings(spec: Drivetrain, scene: TrainScene, course: Course, tolerance: float) -> Iterator[Ending]:
     """The ends of all parts and clutches that the run does not contain."""
     for part in course.case.parts:
         if course.case.stopping or part.until is not None:
@@ -240,9 +236,7 @@ def _element(case: Case, part: Part) -> str:
     return case.bodies[part.body] if case.others else ""
 
 
-def _ending(
-    spec: Drivetrain, scene: TrainScene, course: simulation.Course, tolerance: float, part: Part
-) -> Ending | None:
+def _ending(spec: Drivetrain, scene: TrainScene, course: Course, tolerance: float, part: Part) -> Ending | None:
     case, end = course.case, course.record.time
     if math.isfinite(simulation.over(course, part)):
         back = None if case.stopping else _driven_back(spec, course, part)
@@ -261,7 +255,7 @@ def _ending(
     return Ending(loads=dict(_later(case, course, end, part)), state=_state(spec, case, part, speed))
 
 
-def _slipping(spec: Drivetrain, scene: TrainScene, course: simulation.Course, tolerance: float, grip: Grip) -> Ending:
+def _slipping(spec: Drivetrain, scene: TrainScene, course: Course, tolerance: float, grip: Grip) -> Ending:
     """A clutch that slips at the end of a start: it never locks, or later."""
     case, end, name = course.case, course.record.time, of("clutch_slip", grip.name)
     slip = simulation.slip(course, grip)
@@ -284,7 +278,7 @@ def _slipping(spec: Drivetrain, scene: TrainScene, course: simulation.Course, to
     return Ending(loads={name: Found(Estimate(slip, 0.0, math.inf, model=math.inf), note=note)})
 
 
-def _driven_back(spec: Drivetrain, course: simulation.Course, part: Part) -> Failure | None:
+def _driven_back(spec: Drivetrain, course: Course, part: Part) -> Failure | None:
     """A start that reaches its speed and ends backward: a later load exceeds the torque of the motors."""
     case, name = course.case, course.case.bodies[part.body]
     speed = simulation.speeds(course, part.body)[0]
@@ -309,7 +303,7 @@ def _motor_path(spec: Drivetrain, body: str) -> KeyPath:
     return ("motors", names[0]) if names else ("inertias",)
 
 
-def _growing(course: simulation.Course, part: Part, later: float) -> Iterator[tuple[str, Found]]:
+def _growing(course: Course, part: Part, later: float) -> Iterator[tuple[str, Found]]:
     """The speed left by a stop that gains speed: it depends on the end of the window, and has no upper bound."""
     speed, before = simulation.speeds(course, part.body)
     if course.case.stopping and abs(later) > (1 + _PROGRESS) * abs(speed):
@@ -326,7 +320,7 @@ class _Ahead:
     stuck: float | None = None
 
 
-Aim = tuple[Callable[[simulation.Course], float], Callable[[simulation.Course], tuple[float, float]]]
+Aim = tuple[Callable[[Course], float], Callable[[Course], tuple[float, float]]]
 """When a run is over, and the speed at its end with the one that is wanted."""
 
 
@@ -336,14 +330,14 @@ def _of_part(part: Part) -> Aim:
 
 
 def _of_clutch(grip: Grip) -> Aim:
-    def apart(course: simulation.Course) -> tuple[float, float]:
+    def apart(course: Course) -> tuple[float, float]:
         assert grip.second is not None
         return simulation.speeds(course, grip.first)[0] - simulation.speeds(course, grip.second)[0], 0.0
 
     return (lambda one: _locked(one, grip)), apart
 
 
-def _locked(course: simulation.Course, grip: Grip) -> float:
+def _locked(course: Course, grip: Grip) -> float:
     """When a clutch of this name locked in a run of the elastic or the rigid train [s]."""
     return simulation.locked(course, next(one for one in course.case.train.grips if one.name == grip.name))
 
@@ -381,7 +375,7 @@ def _followed(
     case: Case,
     end: float,
     tolerance: float,
-    over: Callable[[simulation.Course], float],
+    over: Callable[[Course], float],
     names: Container[str],
 ) -> Ending | None:
     """These loads of a start or stop that ends beyond its window; None where it takes a long run, or is not found."""
@@ -456,7 +450,7 @@ def _failure(spec: Drivetrain, case: Case, part: Part, speed: float) -> Failure:
     return Failure("DRV110", message, path, cure)
 
 
-def _later(case: Case, course: simulation.Course, end: float, part: Part) -> Iterator[tuple[str, Found]]:
+def _later(case: Case, course: Course, end: float, part: Part) -> Iterator[tuple[str, Found]]:
     """Loads of a start or stop that goes on: at least what they are so far."""
     after = Found(Estimate(end, end, math.inf, model=math.inf))
     if case.stopping:

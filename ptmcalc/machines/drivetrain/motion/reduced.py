@@ -6,9 +6,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain.links.effects import elasticity_criterion
 from ptmcalc.machines.drivetrain.model import case_of, rigid
 from ptmcalc.machines.drivetrain.motion import bars, ending, simulation
+from ptmcalc.machines.drivetrain.motion.effects import elasticity_criterion
 from ptmcalc.machines.drivetrain.motion.elastic import TOLERANCES
 from ptmcalc.machines.drivetrain.motion.loads import MOVING
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
@@ -70,7 +70,7 @@ def valid(spec: Drivetrain, scene: TrainScene) -> Criterion:
 
     **Range** any train; one whose file leaves elasticity out is rigid whatever E.
     **Error** none: the threshold of the effect.
-    **Source** `machines.drivetrain.links.bounds`.
+    **Source** `machines.drivetrain.motion.bounds`.
     """
     number = elasticity_criterion(spec, scene)
     return replace(number, value=0.0) if spec.effects.get("elasticity") == "off" else number

@@ -1,10 +1,9 @@
 """A scene played through, and the loads read from it."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain
-from typing import Any
 
 import numpy as np
 
@@ -15,14 +14,15 @@ from ptmcalc.machines.drivetrain.links import loads as link_loads
 from ptmcalc.machines.drivetrain.model import REACHED, Case, Part, rigid
 from ptmcalc.machines.drivetrain.motion import announced
 from ptmcalc.machines.drivetrain.motion import loads as motion_loads
+from ptmcalc.machines.drivetrain.motion.course import Course, is_smooth
 from ptmcalc.machines.drivetrain.motors import loads as motor_loads
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.piecewise import JAMMED, march
-from ptmcalc.numerics.record import PANEL, Record
+from ptmcalc.numerics.record import PANEL
 from ptmcalc.numerics.train import price
-from ptmcalc.numerics.train.ledger import Ledger, ledger
+from ptmcalc.numerics.train.ledger import ledger
 from ptmcalc.numerics.train.modes import frequencies
-from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Grip, Smooth
+from ptmcalc.numerics.train.parts import Grip
 from ptmcalc.numerics.train.state import NO_FRICTION
 from ptmcalc.numerics.train.system import TrainSystem
 
@@ -58,48 +58,6 @@ underestimates."""
 _DUST = 1e-11
 """Reading relative to the largest of its kind [1] that is set to 0 as rounding. A numerical choice above the resolution
 2e-16 of the floating point. A larger value suppresses real small loads; a smaller one reports rounding as loads."""
-
-
-@dataclass(frozen=True, slots=True)
-class Course:
-    """One run of a case."""
-
-    case: Case
-    system: TrainSystem
-    record: Record
-    ledger: Ledger
-
-    @property
-    def smooth(self) -> bool:
-        """Whether a nonlinear torque took part."""
-        return is_smooth(self.case)
-
-    def index(self, what: str, name: str) -> int | None:
-        """Index of a watched signal of a body, link, gear, motor or brake."""
-        train = self.case.train
-        named: Mapping[str, Sequence[Any]] = {"link": train.springs, "mesh": train.meshes, "drive": train.drives}
-        names = [part.name for part in named.get(what, train.bodies)]
-        return self.system.watched[what, names.index(name)] if name in names else None
-
-    def torque(self, name: str) -> int | None:
-        """Index of the torque of a link, or of the gear a rigid train has in its place."""
-        found = self.index("link", name)
-        return found if found is not None else self.index("mesh", name)
-
-    def largest(self, index: int) -> tuple[float, float]:
-        """Largest magnitude of a signal and its time."""
-        top, bottom = self.record.top, self.record.bottom
-        high, low = float(top.values[index]), float(bottom.values[index])
-        if high >= -low:
-            return high, float(top.at[index])
-        return -low, float(bottom.at[index])
-
-
-def is_smooth(case: Case) -> bool:
-    """Whether a nonlinear torque takes part, which is found by iteration from panel to panel."""
-    train = case.train
-    laws = (stage.law for drive in train.drives for stage in drive.stages)
-    return any(isinstance(law, Smooth) for law in laws) or any(one.law == HUNT_CROSSLEY for one in train.springs)
 
 
 def run(

@@ -11,15 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase
 from ptmcalc.components.motor_torque import overhauled_torque
-from ptmcalc.contract.result import Failure, Found, of
+from ptmcalc.contract.result import Found, of
 from ptmcalc.machines.drivetrain.keys.torques import MotorOn
 from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of
-from ptmcalc.machines.drivetrain.motion.simulation import Course
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Stop, TrainScene
 from ptmcalc.numerics.train.parts import Drive, Grip, Law, Mesh, Smooth, Spring, Straight
 from ptmcalc.numerics.train.signals import Signal
@@ -34,10 +32,6 @@ Fewer are faster and coarser."""
 _ENDLESS = 1e6
 """Speed relative to no-load speed [1] at which a torque that grows without limit exceeds any load. A numerical choice.
 A smaller value reports a runaway of motors that hold the load."""
-
-_OVERSPEED = 1.2
-"""Speed of a motor for a short time relative to no-load speed [1], IEC 60034-1, 9.7. A larger value accepts faster
-lowering; a smaller one refuses motors that withstand it."""
 
 Edge = Mesh | Spring | Grip
 
@@ -68,7 +62,7 @@ def overhauled(spec: Drivetrain, scene: TrainScene) -> tuple[Overhauled, ...]:
 
 def _overhauled(spec: Drivetrain, scene: TrainScene) -> Iterator[Overhauled]:
     case = case_of(spec, scene, backlash=False)
-    for part in _parts(spec, case):
+    for part in parts_with_motors(spec, case):
         times = [time for time in part.times() if scene.duration is None or time <= scene.duration]
         loads = {time: part.load(part.no_load, time) for time in times if part.on(time)}
         found = {time: part.reserve(time) for time, load in loads.items() if load > 0}
@@ -98,56 +92,11 @@ def braking_reserve(spec: Drivetrain, scene: TrainScene) -> dict[str, Found]:
     return found
 
 
-def seen(spec: Drivetrain, scene: TrainScene, course: Course) -> tuple[dict[str, Found], tuple[Failure, ...]]:
-    """Reserves of loads that change with time, and motors that the load has driven beyond their curve in a run.
-
-    A motor is beyond its curve at a speed above that of its greatest braking torque, where the load is larger than the
-    torque that is left at the end of the run, or above its overspeed. Below that speed the reserve is the greatest
-    braking torque over the largest one of the run.
-    """
-    listed = {one.motor: one for one in overhauled(spec, scene)}
-    loads: dict[str, Found] = {}
-    failures: list[Failure] = []
-    for part in _parts(spec, course.case) if listed else ():
-        name = part.motors[0][0]
-        if name not in listed or not any(overhauled_torque(one.motor) for _, one in part.motors):
-            continue  # motors that never brake: no curve to go beyond
-        speed = _of(course, "speed", spec.motors[name].at)
-        runs_away = speed[0] > part.greatest and part.at_speed(speed[0], course.record.time) < 1
-        if runs_away or speed[1] > max(part.greatest, _OVERSPEED * part.no_load):
-            failures.append(_failure(spec, part.motors[0], speed[1]))
-            continue
-        if listed[name].lasting or listed[name].reserve >= 1 or not speed[1] <= part.greatest:
-            continue
-        used = {motor: -_of(course, "drive", motor)[2] for motor, _ in part.motors}
-        shares = [
-            one.count * overhauled_torque(one.motor) / used[motor] for motor, one in part.motors if used[motor] > 0
-        ]
-        loads[of(LOAD, name)] = Found(Estimate.exact(min(shares, default=math.inf)))
-    return loads, tuple(failures)
-
-
-def _failure(spec: Drivetrain, motor: tuple[str, MotorOn], speed: float) -> Failure:
-    name, one = motor
-    now = units.show(speed, units.ANGULAR_SPEED)
-    message = f"the load drives `{one.at}` at {now}, above the speed of the maximum braking torque of the motor"
-    return Failure("DRV111", message, path_of(spec, name), "increase the motor torque, or add a brake", name)
-
-
 def path_of(spec: Drivetrain, name: str) -> KeyPath:
     """The key with which the torques of a motor grow, or the motor."""
     curve = spec.motors[name].motor
     brakes = bool(curve.size_key) and overhauled_torque(curve) > 0
     return ("motors", name, "motor", curve.size_key) if brakes else ("motors", name)
-
-
-def _of(course: Course, what: str, name: str) -> tuple[float, float, float]:
-    """Last, largest and smallest value of a signal."""
-    index = course.index(what, name)
-    if index is None:
-        return 0.0, 0.0, 0.0
-    record = course.record
-    return float(record.last[index]), float(record.top.values[index]), float(record.bottom.values[index])
 
 
 # -- the motors -----------------------------------------------------------------------------------------------------
@@ -173,7 +122,7 @@ def _greatest(curve: AnyMotor) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class _Part:
+class MotorPart:
     """A part of the train with motors. `tree` lists for each body the body that it passes its torque to, outermost
     first; `ratio` is the speed of each body over that of the first motor's."""
 
@@ -360,7 +309,7 @@ def _at(signal: Signal, time: float) -> float:
     return value
 
 
-def _parts(spec: Drivetrain, case: Case) -> Iterator[_Part]:
+def parts_with_motors(spec: Drivetrain, case: Case) -> Iterator[MotorPart]:
     """The parts of the train that have motors and can run away."""
     train, left = case.train, dict(spec.motors)
     held = {spring.first for spring in train.springs if spring.second is None} | {one.body for one in train.guides}
@@ -371,7 +320,7 @@ def _parts(spec: Drivetrain, case: Case) -> Iterator[_Part]:
         for name, _ in motors:
             del left[name]
         if not held & ratio.keys():
-            yield _Part(case, motors, tree, ratio)
+            yield MotorPart(case, motors, tree, ratio)
 
 
 def _spread(case: Case, root: int) -> tuple[dict[int, float], tuple[tuple[int, int, Edge], ...]]:

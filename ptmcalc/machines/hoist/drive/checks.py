@@ -1,6 +1,7 @@
 """The checks of a hoist's drive in even motion: what lifts, what heats, what holds."""
 
 import math
+from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
@@ -8,8 +9,12 @@ from ptmcalc.components.motor_rating import braking_number_at, number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist.drive import torques
+from ptmcalc.machines.hoist.model import loaded
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
-from ptmcalc.machines.hoist.statics.checks_rope import RUNNING, Loads, OneCheck, loaded
+
+Loads = Mapping[str, Estimate]
+OneCheck = Check[Hoist, Run]
+RUNNING = frozenset({Run})
 
 
 def _driven(spec: Hoist, scene: HoistScene) -> bool:

@@ -10,7 +10,8 @@ from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs,
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.drive.checks import curve_number
-from ptmcalc.machines.hoist.motion.train import Moving, case_of
+from ptmcalc.machines.hoist.motion.cases import case_of
+from ptmcalc.machines.hoist.motion.train import Moving
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.spec.scene import Scene
 

@@ -7,6 +7,7 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import backlash, lift_off, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.loads import FORCES, MOVING
 from ptmcalc.machines.hoist.motion.reduced import (
     hook_brake_force,
@@ -19,7 +20,7 @@ from ptmcalc.machines.hoist.motion.reduced import (
     start_hook_speed,
     travel,
 )
-from ptmcalc.machines.hoist.motion.train import Case, Moving, case_of
+from ptmcalc.machines.hoist.motion.train import Case, Moving
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.spec.scene import Scene
 

@@ -2,9 +2,10 @@
 
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.effects import ALWAYS, SCENES
 from ptmcalc.machines.hoist.motion.loads import MOVING
-from ptmcalc.machines.hoist.motion.train import TOLERANCES, Moving, case_of
+from ptmcalc.machines.hoist.motion.train import TOLERANCES, Moving
 from ptmcalc.machines.hoist.spec import Hoist
 
 

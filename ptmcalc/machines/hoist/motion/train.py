@@ -7,8 +7,7 @@ by the direction of the power through them; the rope only pulls, the load stands
 
 from dataclasses import dataclass
 
-from ptmcalc.base.memory import remembered
-from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
+from ptmcalc.machines.hoist.spec import Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.parts import Smooth, Train
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
@@ -70,36 +69,3 @@ class Case:
     def smooth(self) -> bool:
         """Whether a nonlinear torque takes part."""
         return any(isinstance(stage.law, Smooth) for drive in self.train.drives for stage in drive.stages)
-
-
-def case_of(spec: Hoist, scene: Moving, carried: frozenset[str]) -> Case:
-    """The case of a scene with the effects it carries; without `structure` the drum stands fast, without
-    `gear_elasticity` the gear is rigid, without `gear_backlash` it has no play."""
-    return _case(_Key(spec, scene, carried))
-
-
-@dataclass(frozen=True, slots=True)
-class _Key:
-    """What a case depends on; models are compared by identity, as they never change."""
-
-    spec: Hoist
-    scene: Moving
-    carried: frozenset[str]
-
-    def __hash__(self) -> int:
-        return hash((id(self.spec), id(self.scene), self.carried))
-
-    def __eq__(self, other: object) -> bool:
-        return (
-            isinstance(other, _Key)
-            and self.spec is other.spec
-            and self.scene is other.scene
-            and self.carried == other.carried
-        )
-
-
-@remembered(128)
-def _case(key: _Key) -> Case:
-    from ptmcalc.machines.hoist.motion.train_builder import TrainBuilder
-
-    return TrainBuilder(key.spec, key.scene, key.carried).case()

@@ -7,8 +7,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.model import loaded
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
-from ptmcalc.machines.hoist.statics.checks_rope import RUNNING, OneCheck, loaded
+from ptmcalc.machines.hoist.statics.checks_rope import RUNNING, OneCheck
 
 _FLEET, _FLEET_RESISTANT = math.radians(4), math.radians(2)
 """Largest fleet angle by default [rad]: 4 deg (`_FLEET`), and 2 deg of rotation-resistant ropes (`_FLEET_RESISTANT`);

@@ -1,4 +1,4 @@
-"""The checks of a hoist that moves evenly: its rope and sheaves, its class; and what checks of hoists share."""
+"""The checks of a hoist that moves evenly: its rope and sheaves, its class."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -8,6 +8,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.model import loaded
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
 
 Loads = Mapping[str, Estimate]
@@ -15,11 +16,6 @@ OneCheck = Check[Hoist, Run]
 RUNNING = frozenset({Run})
 
 _GROUP: KeyPath = ("class", "mechanism")
-
-
-def loaded(spec: Hoist, scene: HoistScene) -> bool:
-    """Whether the rated load hangs on the hook: what an empty hook does not ask is not asked of it."""
-    return scene.load == "full"
 
 
 def _of_group(asked: float | None, table: Mapping[str, float], spec: Hoist) -> Estimate:

@@ -10,11 +10,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft import ledger
 from ptmcalc.machines.shaft.cases import cycle_of, inertia_forced_off, machine_in
 from ptmcalc.machines.shaft.cycle import impossible
 from ptmcalc.machines.shaft.cycle.bounds import cycle_shares
 from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
+from ptmcalc.machines.shaft.ledger import Ledger, booked, over_angle
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.results import FLOOR, MARGIN, bar, result_of
 from ptmcalc.machines.shaft.spec import Shaft, Steady
@@ -51,7 +51,7 @@ def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Resu
     cycle = cycle_of(spec, scene.load, mean_inertia="varying_inertia" not in carried)
     if cycle is None:
         return impossible.stalls(spec, scene)
-    books = ledger.of_cycle(cycle)
+    books = _works(cycle.machine, cycle.orbit)
     fine, rough = (_loads_of(cycle, orbit) for orbit in (cycle.orbit, cycle.rough))
     loads = {name: Found(bar(value, rough[name][0]), at) for name, (value, at) in fine.items()}
     work, wanted = cycle.work, spec.checks.irregularity
@@ -62,6 +62,11 @@ def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Resu
     _, speeds, weights = cycle.speeds()
     period = float(np.sum(weights / speeds))
     return result_of(loads, books, work, len(cycle.orbit.start), period, lambda: _histories(cycle))
+
+
+def _works(machine: Machine, orbit: Orbit) -> Ledger:
+    """The works of a steady cycle."""
+    return booked(machine, [over_angle(machine, orbit, len(machine.drive.stages) - 1)], 0.0)
 
 
 def _histories(cycle: Cycle) -> dict[str, History]:
@@ -80,7 +85,7 @@ def _loads_of(cycle: Cycle, orbit: Orbit) -> dict[str, tuple[float, dict[str, fl
     """Loads of an orbit and where they occur."""
     (low, at_low), (high, at_high) = orbit.extremes()
     slow, fast = math.sqrt(2 * low), math.sqrt(2 * high)
-    books = ledger.of_cycle(Cycle(cycle.machine, orbit, orbit, 0))
+    books = _works(cycle.machine, orbit)
     most, at_most = _largest_torque(cycle.machine, orbit)
     values = {
         "speed_max": (fast, {"angle": at_high}),

@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.motor import InductionBase
@@ -27,7 +25,7 @@ def stalls(spec: Shaft, scene: Steady) -> Result:
     **Source** work balance of a cycle (6.10).
     """
     machine = machine_in(spec, scene)
-    most, needed = _largest_torque(machine), machine.survey.static_mean
+    most, needed = machine.largest_torque, machine.survey.static_mean
     period, passed = machine.period, machine.drive.ratio * machine.drive.efficiency
     have, ask = passed * most * period, needed * period
     if have <= ask:
@@ -71,36 +69,10 @@ def races(spec: Shaft, scene: Steady) -> Result:
     return Result({}, work=1, failures=_failures(spec, message, hint))
 
 
-def never_up(spec: Shaft, machine: Machine, target: float) -> tuple[Failure, ...]:
-    """A run-up that never comes to its speed: the motor stalls, does not pass a dead centre, or stays below."""
-    most, passed = machine.survey.static_high, machine.drive.ratio * machine.drive.efficiency
-    have, speed = passed * _largest_torque(machine), units.show(target, units.ANGULAR_SPEED)
-    message = (
-        f"the shaft never reaches {speed}: load, losses and weights require up to {_torque(most)} on it, the motor"
-        f" torque is at most {_torque(have)}"
-    )
-    hint = (
-        f"a motor of more than {_torque(most / passed)} would be sufficient"
-        if most > have
-        else "more motor torque at each speed"
-    )
-    return (Failure("SHF103", message, motor_key(spec), hint),)
-
-
-def not_held(spec: Shaft, turns: float, held: float) -> list[Failure]:
-    """A shaft that weights and springs turn again where its brake has stopped it, by the checks of its stop."""
-    message = (
-        f"the brake does not hold the shaft: weights and springs drive it with {_torque(turns)}, {_torque(held)} hold"
-    )
-    assert spec.brake is not None
-    hint = f"a brake of more than {_torque(spec.brake.torque + turns - held)}"
-    return [Failure(code, message, ("brake", "torque"), hint) for code in ("SHF105", "SHF106")]
-
-
 def stalled(machine: Machine) -> dict[str, Found]:
     """Loads of a machine that its motor cannot drive: nothing is useful, and the work asked for, all of it lost, is
     related to the most that the motor could do."""
-    have = machine.drive.ratio * machine.drive.efficiency * _largest_torque(machine)
+    have = machine.drive.ratio * machine.drive.efficiency * machine.largest_torque
     lost = max(machine.survey.static_mean / have, 1.0) if have > 0 else math.inf
     values = {"loss_factor": lost, "cycle_efficiency": 0.0, "speed_min": 0.0}
     return {name: Found(Estimate.exact(value)) for name, value in values.items()}
@@ -119,12 +91,6 @@ def _failures(spec: Shaft, message: str, hint: str) -> tuple[Failure, ...]:
         Failure("SHF101", message, path, hint),
         *(Failure(code, cause, path) for code, given in also.items() if given),
     )
-
-
-def _largest_torque(machine: Machine) -> float:
-    drive = machine.drive
-    torques = drive.torque(len(drive.stages) - 1, np.append(machine.tried_speeds, 0.0))
-    return max(float(np.max(torques)), drive.breakdown_torque or 0.0, 0.0)
 
 
 def _work(value: float) -> str:

@@ -9,11 +9,11 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.shaft.cases import machine_in
-from ptmcalc.machines.shaft.cycle import impossible
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.spec import RunUp, Shaft
 from ptmcalc.machines.shaft.speed_changes import run_up_bounds
 from ptmcalc.machines.shaft.speed_changes.cases import target_speed
+from ptmcalc.machines.shaft.speed_changes.failures import never_up
 from ptmcalc.machines.shaft.speed_changes.loads import OF_RUN_UP
 
 
@@ -38,7 +38,7 @@ def run(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Resul
     for value, (name, held) in zip(values, ranges.items(), strict=True):
         loads[name] = Estimate.exact(math.inf) if stuck else _between(value, held.low, held.high)
     never = loads["run_up_time"].low == math.inf
-    failures = impossible.never_up(spec, machine, target) if never else ()
+    failures = never_up(spec, machine, target) if never else ()
     return Result({name: Found(estimate) for name, estimate in loads.items()} | starting, work=1, failures=failures)
 
 

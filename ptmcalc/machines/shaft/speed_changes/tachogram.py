@@ -12,9 +12,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver, always_valid
-from ptmcalc.machines.shaft import ledger
 from ptmcalc.machines.shaft.cases import cycle_of, inertia_forced_off, machine_in
-from ptmcalc.machines.shaft.cycle import impossible
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.results import bar, result_of
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
@@ -27,7 +25,9 @@ from ptmcalc.machines.shaft.speed_changes.cases import (
     target_speed,
     wanted_stop,
 )
+from ptmcalc.machines.shaft.speed_changes.failures import never_up, not_held
 from ptmcalc.machines.shaft.speed_changes.loads import ANGULAR_ACCELERATION, OF_RUN_OUT, OF_RUN_UP
+from ptmcalc.machines.shaft.speed_changes.works import works_of
 
 _SEPARATE = 150
 """Cycles [1] assumed to be simulated one by one in the predicted time; of more, most are skipped. A numerical choice:
@@ -60,18 +60,18 @@ def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Re
     }
     if _settles_below(spec, scene, machine, target, mean_inertia="varying_inertia" not in carried):
         never = {name: Found(Estimate.exact(math.inf)) for name in ("run_up_time", "run_up_angle")}
-        return Result(loads | never, work=1, failures=impossible.never_up(spec, machine, target))
+        return Result(loads | never, work=1, failures=never_up(spec, machine, target))
     fine, rough = (motion.run_up(machine, scene.start, target, setting) for setting in motion.ORDERS)
     for name in ("run_up_time", "run_up_angle"):
         value, other = (getattr(one, name.removeprefix("run_up_")) for one in (fine, rough))
         loads[name] = Found(bar(value, other))
     steps = sum(len(part.steps) for part in fine.parts)
-    books = ledger.of_run(fine) if fine.parts else None
+    books = works_of(fine) if fine.parts else None
     window = fine.time if fine.finished else None
     result = result_of(loads, books, fine.work + rough.work, steps, window, lambda: _histories(fine, "run_up"))
     if fine.finished or rough.finished:
         return result
-    return replace(result, failures=impossible.never_up(spec, machine, target))
+    return replace(result, failures=never_up(spec, machine, target))
 
 
 def _settles_below(spec: Shaft, scene: RunUp, machine: Machine, target: float, *, mean_inertia: bool) -> bool:
@@ -132,7 +132,7 @@ def run_out(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> 
         loads["brake_torque_needed"] = Found(needed)
         work += used
     work += search.work if search else 0
-    books = ledger.of_run(governing) if governing.parts else None
+    books = works_of(governing) if governing.parts else None
     steps = sum(len(part.steps) for part in governing.parts)
     window = governing.time if governing.finished else None
     result = result_of(loads, books, work, steps, window, lambda: _histories(governing, "run_out"))
@@ -159,7 +159,7 @@ def _energies(start: Departure, run: motion.Run, unsure: float) -> dict[str, Fou
     share by which the run may not be the worst."""
     loads = start.beginning()
     if run.finished and run.parts:
-        value = ledger.of_run(run).brake * start.machine.drive.reverse_efficiency
+        value = works_of(run).brake * start.machine.drive.reverse_efficiency
         loads["energy_recoverable"] = Found(
             Estimate.within(value, (1e-9 + unsure) * abs(value)), {"angle": run.begin.angle}
         )
@@ -184,7 +184,7 @@ def _turned_again(spec: Shaft, scene: RunOut, runs: Iterable[motion.Run]) -> tup
     if not is_braked(spec, scene):
         message = "the losses do not hold the stopped shaft: weights and springs drive it again"
         return [Finding("NUM104", message, ("losses", "torque"))], []
-    return [], impossible.not_held(spec, turns, held)
+    return [], not_held(spec, turns, held)
 
 
 def run_up_cost(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> float:

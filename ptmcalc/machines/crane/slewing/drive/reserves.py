@@ -5,7 +5,7 @@ import math
 from ptmcalc.components.motor_torque import overhauling_reserve
 from ptmcalc.laws import duty
 from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.rotation.chain import Phases, Torques, worth
+from ptmcalc.machines.crane.slewing.model import Phases, PhaseTorques
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
@@ -47,8 +47,11 @@ def braking_reserve(spec: SlewingCrane, scene: SlewingScene) -> float | None:
     return overhauling_reserve(motor.curve, motor.count, driving if gear.back > 0 else 0.0)
 
 
-def of_drive(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques) -> dict[str, float]:
-    """Reserves, heat and whatever the drive is asked."""
+def of_drive(
+    spec: SlewingCrane, scene: SlewingScene, times: Phases, at: PhaseTorques, start_heat: float
+) -> dict[str, float]:
+    """Reserves, heat and whatever the drive is asked; `start_heat` is what the torque of the start is worth for the
+    heat, over its mean [1]."""
     gear, motor = spec.gear, spec.motor
     against = spec.friction + model.driving_wind(spec, scene)
     spread = model.torque_range(spec, scene)
@@ -73,9 +76,7 @@ def of_drive(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques
         loads["wind_reserve_brake"] = ratio_to(held, model.driving_wind(spec, scene))
     if math.isfinite(times.whole):
         pieces = [times.start[0], times.steady[0]]
-        heating = duty.rms_torque(
-            [worth(spec, scene, 2.0) * at.fast[0] / motor.count, at.fast[1] / motor.count], pieces
-        )
+        heating = duty.rms_torque([start_heat * at.fast[0] / motor.count, at.fast[1] / motor.count], pieces)
         loads["torque_motor_rms"] = heating
         if motor.rated is not None:
             on = sum(pieces) / (times.whole + spec.cycle.pause)

@@ -9,7 +9,6 @@ from ptmcalc.laws import duty, slewing
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.ring.loads import RING_LOADS
 from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 Loads = Mapping[str, Estimate]
@@ -19,6 +18,8 @@ _OF_TIMES = (
     "share_start", "share_steady", "share_brake", "torque_equivalent", "torque_pinion", "torque_worm", "power_gearbox",
     "rotation_used", "torque_motor_rms", "heating_utilisation",
 )  # fmt: skip
+OF_SWAY = frozenset({"sway_radial_max", "sway_tangential_max", "sway_max", "sway_residual"})
+"""Loads of a run with load sway: each depends on the time of the start."""
 
 
 def unknown(loads: Loads, names: Iterable[str] = ()) -> dict[str, Interval]:
@@ -47,7 +48,7 @@ def of_times(
     if "start_time" not in loads or "cycle_time" not in loads:
         return {}
     speed, rotation = spec.speed, spec.cycle.rotation
-    planned = (model.stop(spec, scene) or chain.allowed_stop(spec))[1]
+    planned = (model.stop(spec, scene) or model.allowed_stop(spec))[1]
     if not (math.isfinite(start.low) and math.isfinite(start.high)):
         return {name: ANYTHING for name in _OF_TIMES if name in loads}
     turned = start_angle or Interval(0.0, speed * start.high)
@@ -89,10 +90,10 @@ def _torques(
     spec: SlewingCrane, scene: SlewingScene, times: tuple[Interval, ...], whole: Interval, steady: Interval
 ) -> dict[str, Interval]:
     """Means of torques over the phases: a ratio of linear functions of each time, largest and smallest at corners."""
-    at_column = start_of(spec, scene)[1]
+    at_column = model.start_of(spec, scene)[1]
     found: dict[str, Interval] = {}
     for by in (False, True):
-        at = chain.torques(spec, scene, at_column, by_direction=by)
+        at = model.phase_torques(spec, scene, at_column, by_direction=by)
         more = chain.worth(spec, scene, spec.cycle.exponent)
         equivalent = _mean(times, (more * at.start, at.steady, at.brake), spec.cycle.exponent)
         worm = _mean(times, (more * at.fast[0], *at.fast[1:]), spec.cycle.exponent)

@@ -73,16 +73,20 @@ def has_curve(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
 def found_by(spec: SlewingCrane, scene: SlewingScene, *, by_direction: bool, by_curve: bool = False) -> Result:
     """All of it, rotor and losses of the stop by the handbook or `by_direction` of the power; the start by the mean of
     the motor's torque or `by_curve`."""
-    start, at_column, derived = start_of(spec, scene)
+    start, at_column, derived = model.start_of(spec, scene)
     turned = spec.speed * start / 2
     rise = start_curve.rise_of(spec, scene) if by_curve else None
     if rise is not None:
         start, turned = rise.time, rise.angle
     stop = model.stop(spec, scene)
-    times = chain.phases(spec, (start, turned), stop or chain.allowed_stop(spec))
-    at = chain.torques(spec, scene, at_column, by_direction=by_direction)
+    times = model.phases(spec, (start, turned), stop or model.allowed_stop(spec))
+    at = model.phase_torques(spec, scene, at_column, by_direction=by_direction)
     loads = found_of(spec, scene, times, at)
-    loads |= reserves.of_drive(spec, scene, times, at) | forces.of_ring(spec, scene) | of_use(spec)
+    loads |= (
+        reserves.of_drive(spec, scene, times, at, chain.worth(spec, scene, 2.0))
+        | forces.of_ring(spec, scene)
+        | of_use(spec)
+    )
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
     if rise is not None:
         found = {name: Found(_by_quadrature(value)) for name, value in loads.items()}
@@ -96,24 +100,14 @@ def _by_quadrature(value: float) -> Estimate:
     return Estimate.within(value, _QUADRATURE * abs(value)) if math.isfinite(value) else Estimate.exact(value)
 
 
-def start_of(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float, str]:
-    """Time of the start [s], its torque at the column [N*m], and the name of the load that was derived."""
-    torque = model.motor_torque(spec, scene)
-    if torque is not None:
-        return chain.start_time(spec, scene), model.at_column(spec, torque), "start_time"
-    given = model.start_time_of(spec.cycle.start_time, spec.cycle.start_angle, spec.speed)
-    assert given is not None
-    return given, chain.start_torque(spec, scene, given), "torque_start"
-
-
-def found_of(spec: SlewingCrane, scene: SlewingScene, times: chain.Phases, at: chain.Torques) -> dict[str, float]:
+def found_of(spec: SlewingCrane, scene: SlewingScene, times: model.Phases, at: model.PhaseTorques) -> dict[str, float]:
     """The loads of the chain, those of an endless rotation too."""
     if math.isfinite(times.whole):
         return dict(chain.loads(spec, scene, times, at, rounded=False))
     return _endless(spec, scene, times, at)
 
 
-def _endless(spec: SlewingCrane, scene: SlewingScene, times: chain.Phases, at: chain.Torques) -> dict[str, float]:
+def _endless(spec: SlewingCrane, scene: SlewingScene, times: model.Phases, at: model.PhaseTorques) -> dict[str, float]:
     """What is left to say of a rotation whose start or stop never ends."""
     return {
         "slew_inertia": model.slew_inertia(spec, scene),

@@ -5,11 +5,10 @@ import math
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.rotation import bounds, chain
+from ptmcalc.machines.crane.slewing.rotation import bounds
 from ptmcalc.machines.crane.slewing.rotation.bounds import Loads, Offsets
-from ptmcalc.machines.crane.slewing.rotation.consistent import found_of, start_of
+from ptmcalc.machines.crane.slewing.rotation.consistent import found_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
-from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
 from ptmcalc.spec.scene import Scene
 
 _SCENES: frozenset[type[Scene]] = frozenset({Slew})
@@ -25,7 +24,6 @@ GUST_THRESHOLD = 0.02
 """Gust torque relative to the accelerating torque [1]. An engineering choice: below 2 % the gust extends the start by
 at most 2.1 %, 1/(1 - 0.02). `gust_bound` adds the extension to the error bar and is unbounded with load sway. A smaller
 value requests the gust in more scenes."""
-_SWINGING = frozenset(info.name for info in OF_THE_SWING)
 _BY_DIRECTION = (
     "torque_inertia_brake",
     "torque_brake",
@@ -45,7 +43,7 @@ def direction_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     **Error** an engineering measure.
     **Source** theory of reduction: the efficiency depends on the direction of the power flow through the gear.
     """
-    inertia = model.slew_inertia(spec, scene) * spec.speed / chain.allowed_stop(spec)[0]
+    inertia = model.slew_inertia(spec, scene) * spec.speed / model.allowed_stop(spec)[0]
     steady = model.steady_torque(spec, scene)
     value = (1 - spec.gear.efficiency) * (inertia / steady if steady > 0 else math.inf)
     return Criterion(
@@ -63,11 +61,12 @@ def direction_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Of
     **Error** exact: both cases are computed.
     **Source** power balance of the mesh; `laws.gearing`.
     """
-    start, at_column, _ = start_of(spec, scene)
-    stop = model.stop(spec, scene) or chain.allowed_stop(spec)
-    times = chain.phases(spec, (start, spec.speed * start / 2), stop)
+    start, at_column, _ = model.start_of(spec, scene)
+    stop = model.stop(spec, scene) or model.allowed_stop(spec)
+    times = model.phases(spec, (start, spec.speed * start / 2), stop)
     one, other = (
-        found_of(spec, scene, times, chain.torques(spec, scene, at_column, by_direction=by)) for by in (False, True)
+        found_of(spec, scene, times, model.phase_torques(spec, scene, at_column, by_direction=by))
+        for by in (False, True)
     )
     return {
         name: Interval(min(other[name] - one[name], 0.0), max(other[name] - one[name], 0.0))
@@ -109,8 +108,8 @@ def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
     least, most = (model.at_column(spec, torque) - steady for torque in spread[:2])
     momentum = (model.slew_inertia(spec, scene) + model.rotor_at_column(spec)) * spec.speed
     wide = Interval(momentum / most if most > 0 else math.inf, momentum / least if least > 0 else math.inf)
-    if not _SWINGING.isdisjoint(loads):
-        return bounds.unknown(loads, _SWINGING)
+    if not bounds.OF_SWAY.isdisjoint(loads):
+        return bounds.unknown(loads, bounds.OF_SWAY)
     return bounds.of_times(spec, scene, loads, wide, None)
 
 
@@ -123,7 +122,7 @@ def gust_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     **Error** an engineering measure.
     **Source** the threshold of 2 % is an engineering choice.
     """
-    free = start_of(spec, scene)[1] - model.steady_torque(spec, scene)
+    free = model.start_of(spec, scene)[1] - model.steady_torque(spec, scene)
     gust = spec.wind.gust_torque
     value = 0.0 if gust == 0 else gust / free if free > 0 else 1e9
     return Criterion("M_g/M_a", value, GUST_THRESHOLD, "gust torque / accelerating torque", "balance of torques")
@@ -149,8 +148,8 @@ def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets
     if spread is not None:  # what is left where the motor is weakest
         left = min(left, model.at_column(spec, spread[0]) - model.steady_torque(spec, scene) - gust)
     wide = Interval(known.low, momentum / left if left > 0 else math.inf)
-    if not _SWINGING.isdisjoint(loads):
-        return bounds.unknown(loads, _SWINGING)
+    if not bounds.OF_SWAY.isdisjoint(loads):
+        return bounds.unknown(loads, bounds.OF_SWAY)
     return bounds.of_times(spec, scene, loads, wide, None)
 
 

@@ -30,15 +30,15 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     if start is None:
         start = model.start_time_of(spec.cycle.start_time, spec.cycle.start_angle, spec.speed)
     if start is None:
-        start = chain.start_time(spec, scene, given.rotor_eta_rule)
+        start = model.start_time(spec, scene, given.rotor_eta_rule)
     if not math.isfinite(start):
         return Result({}, work=1)
     if torque is not None:
         at_column = model.at_column(spec, torque)
     else:
-        at_column = chain.start_torque(spec, scene, start, given.rotor_eta_rule)
-    times = chain.phases(spec, (start, spec.speed * start / 2), chain.allowed_stop(spec))
-    at = chain.torques(spec, scene, at_column, given.rotor_eta_rule, by_direction=False)
+        at_column = model.start_torque(spec, scene, start, given.rotor_eta_rule)
+    times = model.phases(spec, (start, spec.speed * start / 2), model.allowed_stop(spec))
+    at = model.phase_torques(spec, scene, at_column, given.rotor_eta_rule, by_direction=False)
     loads = chain.loads(spec, scene, times, at, rounded=given.shares == "rounded", even=True)
     return Result({name: Found(Estimate.unknown(value)) for name, value in loads.items()}, work=1)
 

@@ -7,9 +7,7 @@ from ptmcalc.laws import slewing
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.ring import forces
 from ptmcalc.machines.crane.slewing.ring.loads import RING_LOADS
-from ptmcalc.machines.crane.slewing.rotation import chain
 from ptmcalc.machines.crane.slewing.rotation.bounds import Loads, Offsets, bar, of_times, unknown
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
@@ -27,7 +25,7 @@ def of_swing(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
     least, most = slewing.momentum_range(driven, mass, reach, speed)
     rigid = (driven + mass * radius**2) * speed
     known = bar(loads["start_time"])
-    start_torque = start_of(spec, scene)[1]
+    start_torque = model.start_of(spec, scene)[1]
     spread = model.torque_range(spec, scene)
     if spread is not None:  # the load may keep the motor at any part of its curve
         left = [model.at_column(spec, torque) - model.steady_torque(spec, scene) for torque in spread[:2]]
@@ -55,9 +53,9 @@ def _unmoved(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
     """Of a crane that stalls or that no brake stops: a load that hangs at rest does not help a motor that stalls, and
     no swing lets a brake hold a wind that is stronger than it can hold."""
     proved: set[str] = set()
-    if model.torque_range(spec, scene) is None and math.isinf(start_of(spec, scene)[0]):
+    if model.torque_range(spec, scene) is None and math.isinf(model.start_of(spec, scene)[0]):
         proved.add("start_time")
-    if math.isinf((model.stop(spec, scene) or chain.allowed_stop(spec))[0]):
+    if math.isinf((model.stop(spec, scene) or model.allowed_stop(spec))[0]):
         proved |= {"brake_time", "brake_angle"}
     return {name: offset for name, offset in unknown(loads).items() if name not in proved}
 
@@ -110,8 +108,8 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, loads: Loads, pull: float, an
         return {name: ANYTHING for name in RING_LOADS[:3] if name in loads}
     brake = spec.brake
     held = 0.0 if brake is None else brake.torque * (spec.gear.ratio if brake.shaft == "motor" else 1.0)
-    even = crane * spec.speed / chain.allowed_stop(spec)[0] if brake is None else 0.0
-    driven = max(start_of(spec, scene)[1], held / spec.gear.back, even)
+    even = crane * spec.speed / model.allowed_stop(spec)[0] if brake is None else 0.0
+    driven = max(model.start_of(spec, scene)[1], held / spec.gear.back, even)
     torque = driven + spec.friction + model.driving_wind(spec, scene)
     torque += spec.wind.gust_torque
     largest = (pull + mass * radius * sine * torque / crane) / free

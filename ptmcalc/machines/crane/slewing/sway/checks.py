@@ -7,8 +7,6 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, at, blames, needs, only
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, curve_number, torque_key, turns
-from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
@@ -58,7 +56,7 @@ def _thrown_by(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
     torque of the start or of the brake, whichever is quicker: their acceleration does not go by the speed."""
     assert spec.load is not None
     assert spec.load.rope_length is not None
-    start, stop = start_of(spec, scene)[0], (model.stop(spec, scene) or chain.allowed_stop(spec))[0]
+    start, stop = model.start_of(spec, scene)[0], (model.stop(spec, scene) or model.allowed_stop(spec))[0]
     if min(start, stop) < math.pi * math.sqrt(spec.load.rope_length / spec.gravity):
         return ("speed",)
     if start <= stop:

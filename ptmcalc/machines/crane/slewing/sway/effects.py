@@ -9,9 +9,7 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import pendulum
 from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.rotation import chain
 from ptmcalc.machines.crane.slewing.rotation.bounds import Loads, Offsets
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway import bounds
 from ptmcalc.spec.scene import Scene
@@ -43,8 +41,8 @@ def swing_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None
     if not _hangs(spec, scene):
         return None
     assert spec.load is not None
-    stop = model.stop(spec, scene) or chain.allowed_stop(spec)
-    shortest = min(start_of(spec, scene)[0], stop[0])
+    stop = model.stop(spec, scene) or model.allowed_stop(spec)
+    shortest = min(model.start_of(spec, scene)[0], stop[0])
     value = 2 * spec.load.radius * spec.speed / (shortest * spec.gravity) if shortest > 0 else math.inf
     return Criterion("2a/g", min(value, 1e9), SWING_THRESHOLD, "tangential sway angle of the load [rad]", "pendulum")
 

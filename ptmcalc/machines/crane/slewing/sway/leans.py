@@ -7,8 +7,6 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import pendulum
 from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway.slew import hangs
 
@@ -26,7 +24,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     load = spec.load
     assert load is not None
     assert load.rope_length is not None
-    shortest = min(start_of(spec, scene)[0], (model.stop(spec, scene) or chain.allowed_stop(spec))[0])
+    shortest = min(model.start_of(spec, scene)[0], (model.stop(spec, scene) or model.allowed_stop(spec))[0])
     out = pendulum.slewing_lean(spec.speed, load.radius, load.rope_length, spec.gravity)
     loads = {"sway_radial_max": out}
     if shortest > 0 and math.isfinite(shortest):

@@ -10,8 +10,6 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.components.motor import ConverterMotor, Stage
 from ptmcalc.contract.result import Event
 from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 from ptmcalc.numerics.pendulum.equations import KEEP
 from ptmcalc.numerics.pendulum.parts import Axis, Case, Follow, Gear, Jib, Load, Peak, Push, Smooth, Straight
@@ -70,7 +68,7 @@ class Rotation:
     """All pieces, and the times [s] and angles [rad] that part them."""
 
     pieces: tuple[Piece, ...]
-    phases: chain.Phases
+    phases: model.Phases
     bar: float
     """error of times and angles as a share of them"""
     creep: float = 0.0
@@ -151,14 +149,14 @@ def rotation(spec: SlewingCrane, scene: SlewingScene, *, curve: bool, gust: bool
         NumericsError: the crane does not reach its speed, or does not stop; and what `numerics.pendulum.swing` raises.
     """
     march = _March(spec, scene)
-    rest = model.stop(spec, scene) or chain.allowed_stop(spec)
+    rest = model.stop(spec, scene) or model.allowed_stop(spec)
     if not math.isfinite(rest[0]):
         raise NumericsError("NUM102", "the brake does not stop the crane against the wind")
     start = _start(march, rest[1], curve=curve, gust=gust)
     steady = max(spec.cycle.rotation - start[1] - rest[1], 0.0)
     before, until = march.position, march.time
     stop = _stop(march, rest[0])
-    phases = chain.Phases(start, (until - start[0], steady), (stop[0], stop[1] - before))
+    phases = model.Phases(start, (until - start[0], steady), (stop[0], stop[1] - before))
     return Rotation(tuple(march.pieces), phases, 1e-9 + march.pieces[-1].inherited, stop[2])
 
 
@@ -168,7 +166,7 @@ def rotation(spec: SlewingCrane, scene: SlewingScene, *, curve: bool, gust: bool
 def _start(march: _March, planned: float, *, curve: bool, gust: bool) -> tuple[float, float]:
     """Start and steady slewing: when the crane has come to its speed, and where."""
     spec, scene = march.spec, march.scene
-    rigid = start_of(spec, scene)[0]
+    rigid = model.start_of(spec, scene)[0]
     if not math.isfinite(rigid):
         raise NumericsError("NUM102", "the motor stalls: the crane does not start")
     whole = spec.cycle.rotation / spec.speed

@@ -14,7 +14,6 @@ from ptmcalc.machines.crane.slewing.drive.loads import OF_THE_DRIVE
 from ptmcalc.machines.crane.slewing.ring import forces
 from ptmcalc.machines.crane.slewing.ring.loads import OF_THE_RING
 from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
 from ptmcalc.machines.crane.slewing.sway.simulated_rotation import Rotation, rotation
@@ -41,9 +40,9 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     **Source** equations of motion (`numerics.pendulum`).
     """
     moved = rotation(spec, scene, curve="slewing_motor_curve" in carried, gust="wind_gust" in carried)
-    at = chain.torques(spec, scene, start_of(spec, scene)[1], by_direction=True)
+    at = model.phase_torques(spec, scene, model.start_of(spec, scene)[1], by_direction=True)
     loads = dict(chain.loads(spec, scene, moved.phases, at, rounded=False))
-    loads |= reserves.of_drive(spec, scene, moved.phases, at)
+    loads |= reserves.of_drive(spec, scene, moved.phases, at, chain.worth(spec, scene, 2.0))
     bar = 10 * moved.bar
     found = {name: Found(_told(value, bar)) for name, value in loads.items()}
     if moved.phases.start[0] == model.ramp(spec):
@@ -153,8 +152,8 @@ def _cost(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], leve
     if load is None or load.rope_length is None:
         return 0.0
     omega = math.sqrt((spec.gravity + spec.speed**2 * load.radius) / load.rope_length)
-    stop = model.stop(spec, scene) or chain.allowed_stop(spec)
-    whole = 3 * start_of(spec, scene)[0] + spec.cycle.rotation / spec.speed + 2 * stop[0]
+    stop = model.stop(spec, scene) or model.allowed_stop(spec)
+    whole = 3 * model.start_of(spec, scene)[0] + spec.cycle.rotation / spec.speed + 2 * stop[0]
     whole *= scene.window_factor
     if not math.isfinite(whole):
         return 0.01

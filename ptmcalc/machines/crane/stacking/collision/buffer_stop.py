@@ -7,7 +7,6 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.events import struck
 from ptmcalc.machines.crane.stacking.loads import OF_THE_BUFFERS, names
 from ptmcalc.machines.crane.stacking.scenes import BufferScene
 from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
@@ -26,7 +25,7 @@ def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) 
     """
     given = model.travel(spec, scene).buffers
     assert given is not None, "the scene has buffers"
-    mass, speed, push = struck(spec, scene)
+    mass, speed, push = _struck(spec, scene)
     hit = stopped(given, mass, speed, push)
     loads = {
         "collision_speed": speed,
@@ -49,6 +48,19 @@ def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) 
         findings=hit.findings((key, "buffers")),
         failures=hit.failures("CRN282", given, (key, "buffers")),
     )
+
+
+def _struck(spec: Stacker, scene: BufferScene) -> tuple[float, float, float]:
+    """(mass [kg], speed [m/s], push of the drive [N]) of what runs onto the buffers, the guided load with it."""
+    block = model.travel(spec, scene)
+    crane = model.carrying_mass(spec, scene) + spec.column.mass + model.climbing_mass(spec, scene)
+    crane += model.rotors(block, braking=False) - model.payload(spec, scene)
+    mass = buffer.collision_mass(crane, model.payload(spec, scene), 1.0)
+    push = 0.0
+    if scene.drive == "on":
+        drives = model.driving(spec, scene)
+        push = drives.size if drives.kind == "force" else drives.size * mass
+    return mass, model.speed(spec, scene), push
 
 
 BUFFER_STOP: Solver[Stacker, BufferScene] = Solver(

@@ -7,8 +7,8 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer, obstacle
 from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.columns import Swinging, swinging
 from ptmcalc.machines.crane.stacking.mast.names import CONTACT, FLEXIBLE, MASS
-from ptmcalc.machines.crane.stacking.mast.properties import Swinging, swinging
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.scenes import ObstacleScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
@@ -17,17 +17,6 @@ from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_deriv
 SCENES = frozenset({ObstacleScene})
 ALWAYS = frozenset({FLEXIBLE, MASS, CONTACT})
 GIVES = DERIVED | frozenset({"collision_force", "collision_deflection", "collision_speed", "contact_force"})
-
-
-def pushed(spec: Stacker, scene: ObstacleScene) -> float:
-    """Force that drives the base on through the collision; below 0 where it is braked [N]."""
-    if scene.drive == "on":
-        push = model.driving(spec, scene)
-        return push.size if push.kind == "force" else math.inf
-    if scene.brake == "on":
-        brake = model.stopping(spec, scene)
-        return -brake.size if brake.kind == "force" else -math.inf
-    return -(model.travel(spec, scene).resistance or 0.0)
 
 
 def striking(spec: Stacker, scene: ObstacleScene) -> Swinging:
@@ -62,7 +51,7 @@ def dead(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: in
 
 
 def _read(spec: Stacker, scene: ObstacleScene, one: Swinging, reading: str, more: dict[str, float]) -> Result:
-    push, v = pushed(spec, scene), model.speed(spec, scene)
+    push, v = model.pushed(spec, scene), model.speed(spec, scene)
     loads = {"collision_speed": v, **more}
     if math.isfinite(push):
         m11, m12, m22 = one.masses
@@ -91,7 +80,7 @@ def bound(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: i
     **Source** derived; `laws.obstacle.column_force_bound`.
     """
     assert isinstance(spec, OverheadStacker)
-    one, push, v = striking(spec, scene), pushed(spec, scene), model.speed(spec, scene)
+    one, push, v = striking(spec, scene), model.pushed(spec, scene), model.speed(spec, scene)
     loads = {"collision_speed": Estimate.exact(v)}
     if push < math.inf:
         met = spec.obstacle

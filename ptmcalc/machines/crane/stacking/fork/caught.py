@@ -8,7 +8,7 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import fork
-from ptmcalc.machines.crane.stacking.events import catch_of
+from ptmcalc.machines.crane.stacking.fork.cases import catch_of
 from ptmcalc.machines.crane.stacking.fork.effects import CATCHING, LIMITER, RACK, SLOPE
 from ptmcalc.machines.crane.stacking.fork.masses import MOTOR, Catch
 from ptmcalc.machines.crane.stacking.marching import MOST_SPREAD, course, spread

@@ -7,7 +7,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.events import catch_of, push_of
+from ptmcalc.machines.crane.stacking.fork.cases import catch_of, push_of
 from ptmcalc.machines.crane.stacking.judging import OneCheck, given
 from ptmcalc.machines.crane.stacking.scenes import (
     ForkCaught,

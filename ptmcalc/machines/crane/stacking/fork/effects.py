@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import fork
-from ptmcalc.machines.crane.stacking.events import catch_of, push_of
+from ptmcalc.machines.crane.stacking.fork.cases import catch_of, push_of
 from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import bounds_of_derived

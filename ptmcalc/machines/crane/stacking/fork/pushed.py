@@ -6,7 +6,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking.events import push_of
+from ptmcalc.machines.crane.stacking.fork.cases import push_of
 from ptmcalc.machines.crane.stacking.fork.effects import PUSHING, YIELDING
 from ptmcalc.machines.crane.stacking.marching import MOST_SPREAD, course, spread
 from ptmcalc.machines.crane.stacking.scenes import ForkPush

@@ -9,9 +9,9 @@ from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import mast_modes
 from ptmcalc.laws.mast_modes import Mast
+from ptmcalc.machines.crane.stacking.columns import rest_deflection, standing, swinging
 from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.mast.handbook import remarks
-from ptmcalc.machines.crane.stacking.mast.properties import rest_deflection, standing, swinging
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of, travels

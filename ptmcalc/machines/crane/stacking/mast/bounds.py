@@ -11,11 +11,11 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.result import of
 from ptmcalc.laws import mast_modes
 from ptmcalc.machines.crane.stacking import model, travelling
+from ptmcalc.machines.crane.stacking.columns import buckling_share, swinging
 from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.mast import march
 from ptmcalc.machines.crane.stacking.mast.march import Happening
 from ptmcalc.machines.crane.stacking.mast.names import GRAVITY
-from ptmcalc.machines.crane.stacking.mast.properties import buckling_share, swinging
 from ptmcalc.machines.crane.stacking.mast.resting import at_rest
 from ptmcalc.machines.crane.stacking.mast.two_mass import course_of, lumped
 from ptmcalc.machines.crane.stacking.mechanisms import starts

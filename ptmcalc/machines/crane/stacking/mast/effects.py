@@ -8,10 +8,9 @@ from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import mast as law
 from ptmcalc.laws import mast_modes
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.collision.obstacle_energy import pushed
+from ptmcalc.machines.crane.stacking.columns import Swinging, swinging
 from ptmcalc.machines.crane.stacking.mast import bounds
 from ptmcalc.machines.crane.stacking.mast.names import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS, MODES
-from ptmcalc.machines.crane.stacking.mast.properties import Swinging, swinging
 from ptmcalc.machines.crane.stacking.mechanisms import starts
 from ptmcalc.machines.crane.stacking.model import Push
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
@@ -206,7 +205,7 @@ def contact_criterion(spec: Stacker, scene: ObstacleScene) -> Criterion:
     **Error** an engineering measure.
     **Source** energy, `laws.buffer.collision_force`.
     """
-    push = pushed(spec, scene)
+    push = model.pushed(spec, scene)
     one = swinging(spec, scene)
     tension = model.speed(spec, scene) * math.sqrt(one.stiffness * one.base)
     value = math.inf if push >= 0 else tension / -push

@@ -6,7 +6,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import mast, mast_modes
-from ptmcalc.machines.crane.stacking.mast.properties import Swinging, swinging
+from ptmcalc.machines.crane.stacking.columns import Swinging, swinging
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_derived

@@ -7,7 +7,7 @@ import numpy as np
 
 from ptmcalc.laws.contact_damping import dashpot_ratio
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.mast.properties import swinging
+from ptmcalc.machines.crane.stacking.columns import swinging
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start

@@ -1,6 +1,6 @@
 """When a column is still beside the place its fork has to meet."""
 
-from ptmcalc.machines.crane.stacking.mast.properties import rest_deflection
+from ptmcalc.machines.crane.stacking.columns import rest_deflection
 from ptmcalc.machines.crane.stacking.scenes import StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.numerics.mast.run import Course, settled

@@ -6,9 +6,9 @@ import numpy as np
 
 from ptmcalc.base.memory import remembered
 from ptmcalc.laws import mast as law
+from ptmcalc.machines.crane.stacking.columns import Swinging, swinging
 from ptmcalc.machines.crane.stacking.mast import march
 from ptmcalc.machines.crane.stacking.mast.march import Happening
-from ptmcalc.machines.crane.stacking.mast.properties import Swinging, swinging
 from ptmcalc.machines.crane.stacking.scenes import DrivenScene, StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of

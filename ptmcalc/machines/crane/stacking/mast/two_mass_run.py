@@ -8,9 +8,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Event, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.crane.stacking.columns import swinging
 from ptmcalc.machines.crane.stacking.mast import march
 from ptmcalc.machines.crane.stacking.mast.names import FLEXIBLE, GRAVITY, HOLDING, MASS
-from ptmcalc.machines.crane.stacking.mast.properties import swinging
 from ptmcalc.machines.crane.stacking.mast.resting import at_rest
 from ptmcalc.machines.crane.stacking.mast.two_mass import course_of
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start

@@ -6,9 +6,8 @@ import numpy as np
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.laws import mast as law
-from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking import columns, model
 from ptmcalc.machines.crane.stacking.keys.drives import Rotation, Travel
-from ptmcalc.machines.crane.stacking.mast import properties
 from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
@@ -98,7 +97,7 @@ def _ends_of_speed(spec: Stacker, scene: Braked, push: model.Push, speed: float,
     guide = spec.column.top_guide
     if guide is not None and guide.stiffness is not None:
         return 0.0, math.inf
-    given = properties.swinging(spec, scene, push.rotors)
+    given = columns.swinging(spec, scene, push.rotors)
     stiffness = given.stiffness + min(given.weight, 0.0)
     if stiffness <= 0:
         return 0.0, math.inf
@@ -106,7 +105,7 @@ def _ends_of_speed(spec: Stacker, scene: Braked, push: model.Push, speed: float,
     return speed - swing, speed + swing
 
 
-def slips_again(given: properties.Swinging) -> float:
+def slips_again(given: columns.Swinging) -> float:
     """What the column asks of the brake after the first standstill, over what that has [1].
 
         max( 2 (M - m1)/M,  2 (m12 + m22)/M max(1, (1 + r)/(2 r^(1/2))) ),   1 + r = m22 M/(m11 m22 - m12^2)
@@ -135,7 +134,7 @@ def stands_at_once(spec: Stacker, scene: Braked) -> bool:
     if not isinstance(scene, Brake) or isinstance(model.moving(spec, scene), Rotation):
         return True
     push = model.stopping(spec, scene)
-    return push.kind == "ramp" or push.size <= 0 or slips_again(properties.swinging(spec, scene, push.rotors)) <= 1
+    return push.kind == "ramp" or push.size <= 0 or slips_again(columns.swinging(spec, scene, push.rotors)) <= 1
 
 
 def ramp_time(speed: float, acceleration: float, rise: float) -> float:

@@ -3,9 +3,9 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
-from ptmcalc.machines.crane.stacking.events import roll_of
 from ptmcalc.machines.crane.stacking.judging import OneCheck
 from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.rail.base import roll_of
 from ptmcalc.machines.crane.stacking.rail.rolling import wave_share
 from ptmcalc.machines.crane.stacking.scenes import (
     RailScene,

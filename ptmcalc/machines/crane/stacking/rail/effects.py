@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
-from ptmcalc.machines.crane.stacking.events import roll_of
 from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.rail.base import roll_of
 from ptmcalc.machines.crane.stacking.rail.rolling import wave_share
 from ptmcalc.machines.crane.stacking.scenes import RailScene
 from ptmcalc.spec.scene import Scene

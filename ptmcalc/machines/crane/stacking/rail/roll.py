@@ -8,10 +8,10 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import rail
-from ptmcalc.machines.crane.stacking.events import Roll, Swinger, roll_of, wheel_load
 from ptmcalc.machines.crane.stacking.loads import OF_THE_RAIL, names
 from ptmcalc.machines.crane.stacking.marching import Course, compared
 from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.rail.base import Roll, Swinger, roll_of, wheel_load
 from ptmcalc.machines.crane.stacking.rail.effects import JUMPING, UNEVEN
 from ptmcalc.machines.crane.stacking.rail.rolling import (
     DOWN,

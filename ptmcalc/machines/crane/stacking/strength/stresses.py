@@ -8,8 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ptmcalc.laws import overturning
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.mast import properties
+from ptmcalc.machines.crane.stacking import columns, model
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import Brake, ForkPush, ObstacleScene, StackerScene, Start
@@ -60,7 +59,7 @@ def _whole_inertia(spec: Stacker, scene: StackerScene) -> float:
     """Inertia of column and load at the root over the force that bends the far end, of a base that is accelerated."""
     if isinstance(scene, ObstacleScene):
         return 1.0  # the far end is held: less arrives at the root
-    _, coupling, tip = properties.swinging(spec, scene).masses
+    _, coupling, tip = columns.swinging(spec, scene).masses
     return (spec.column.mass + model.climbing_mass(spec, scene)) / (coupling + tip)
 
 

@@ -3,8 +3,7 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.mast import properties
+from ptmcalc.machines.crane.stacking import columns, model
 from ptmcalc.machines.crane.stacking.scenes import Stand
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_derived
@@ -19,7 +18,7 @@ def run(spec: Stacker, scene: Stand, carried: frozenset[str], level: int) -> Res
     **Error** exact for that model.
     **Source** lecture notes Kramatorsk 2007 (`laws.mast`); balance.
     """
-    stiffness = properties.compliance(spec, "along").stiffness
+    stiffness = columns.compliance(spec, "along").stiffness
     found = {
         "total_weight": Found(Estimate.exact(model.total_mass(spec, scene) * spec.gravity)),
         "column_stiffness": Found(Estimate.exact(stiffness)),

@@ -8,9 +8,9 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import rail
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.rail.effects import RAIL
 from ptmcalc.machines.crane.travelling.scenes import RailStep
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.machines.crane.travelling.sway.effects import RAIL
 
 Numbers = dict[str, float]
 

@@ -6,11 +6,10 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import travel
 from ptmcalc.machines.crane.travelling import model, stability, wheels
 from ptmcalc.machines.crane.travelling.loads import OF_THE_STORM, names
-from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.model import State, filled
 from ptmcalc.machines.crane.travelling.scenes import Storm
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics import resisting
-from ptmcalc.machines.crane.travelling.sway.course import State
 
 
 def run(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -> Result:

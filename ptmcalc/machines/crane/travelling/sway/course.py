@@ -14,23 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.machines.crane.travelling.model import State
 
 FloatArray = NDArray[np.float64]
-
-
-class State(NamedTuple):
-    """The crane at some instants, numbers or arrays alike; along the rails positive in the direction of travel."""
-
-    acceleration: float | FloatArray
-    """of the crane [m/s^2]"""
-    pull: float | FloatArray
-    """of the load on the crane, against the travel [N]"""
-    weight: float | FloatArray
-    """of the load on the crane, downwards [N]"""
-    traction: float | FloatArray
-    """of the driven wheels on the crane, in the direction of travel [N]"""
-    wind: float | FloatArray
-    """on what travels, against the travel [N]"""
 
 
 Reading = Callable[[State], FloatArray]

@@ -8,12 +8,11 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
-from ptmcalc.laws import rail
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, RailStep, Start
+from ptmcalc.machines.crane.travelling.model import State
+from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, Start
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.machines.crane.travelling.sway.course import State
 from ptmcalc.machines.crane.travelling.sway.finite import far, regular, widened
 from ptmcalc.machines.crane.travelling.sway.linear import linear_course
 from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of
@@ -26,7 +25,7 @@ Offsets = Mapping[str, Interval]
 
 MOVING_SCENES: frozenset[type[Scene]] = frozenset({Start, Brake, HoistWhileTravelling})
 SWAY, REACTION, HOISTING, WIND = "travel_sway", "drive_reaction", "hoisting_sway", "travel_wind"
-LARGE, CURVE, SLIP, RAIL = "large_sway", "torque_curve", "wheel_slip", "rail_unevenness"
+LARGE, CURVE, SLIP = "large_sway", "torque_curve", "wheel_slip"
 IN_PLANE = frozenset({SWAY, REACTION, HOISTING, WIND})
 """What every run carries."""
 
@@ -58,10 +57,6 @@ SLIP_THRESHOLD = 1 / 1.5
 """Force of a driven wheel relative to its adhesion [1]. An engineering choice: 1/1.5 is an adhesion reserve of 1.5.
 Slip is never simulated. Its neglect has no error while the computed reserve is at least 1 and no bound below. The value
 affects the reported state of the effect."""
-RAIL_THRESHOLD = 0.02
-"""Change of the wheel loads by a step or gap, relative to gravity [1]. An engineering choice: below 2 % the wheel loads
-change by less than 2 %. Every run simulates the rail, so no error depends on the value. It affects the list of
-sensitive effects."""
 
 
 def _anything(loads: Loads) -> Offsets:
@@ -334,42 +329,6 @@ def slip_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
     )
 
 
-# -- rail -----------------------------------------------------------------------------------------------------------
-
-
-def rail_criterion(spec: Travelling, scene: RailStep) -> Criterion:
-    """Change of the wheel loads at a step or gap of the rail, relative to gravity.
-
-        (pi/2)^2 v^2/(g r) max(more, less)   of the extremes on a step or gap and after it
-
-    **Range** steps and gaps small relative to the wheel; 0 for a smooth rail.
-    **Error** exact for one undamped mode: the oscillation may vanish after a step although it does not vanish on the
-    step.
-    **Source** `laws.rail.step_extremes`, `gap_extremes`; EN 13001-2 considers only the oscillation after the step.
-    """
-    radius, speed = model.radius(spec), scene.speed_share * spec.speed
-    frequency = 2 * math.pi * model.filled(spec.rail.frequency)
-    answers = [0.0]
-    if spec.rail.step:
-        number = rail.step_number(frequency, speed, radius, spec.rail.step)
-        answers += rail.step_extremes(number)
-    if spec.rail.gap:
-        number = rail.gap_number(frequency, speed, spec.rail.gap)
-        answers += rail.gap_extremes(number)
-    value = rail.rail_acceleration(speed, radius) / spec.gravity * max(answers)
-    return Criterion("a_w/g", value, RAIL_THRESHOLD, "wheel load added by the rail", "laws.rail")
-
-
-def rail_bound(spec: Travelling, scene: RailStep, loads: Loads) -> Offsets:
-    """No bound: a step cannot be computed without this effect.
-
-    **Range** phi4 and the contact of the wheels.
-    **Error** unbounded.
-    **Source** no run neglects this effect.
-    """
-    return dict.fromkeys(loads, ANYTHING)
-
-
 EFFECTS_OF_TRAVEL: tuple[AnyEffect, ...] = (
     Effect(SWAY, "load sway", MOVING_SCENES, sway_criterion, anything_bound),
     Effect(
@@ -383,6 +342,5 @@ EFFECTS_OF_TRAVEL: tuple[AnyEffect, ...] = (
     Effect(WIND, "wind and rail slope", MOVING_SCENES, wind_criterion, wind_bound),
     Effect(LARGE, "finite sway angles (nonlinear pendulum)", MOVING_SCENES, large_criterion, large_bound),
     Effect(CURVE, "motor torque-speed curve", MOVING_SCENES, curve_criterion, curve_bound),
-    Effect(RAIL, "rail steps and gaps", frozenset({RailStep}), rail_criterion, rail_bound),
     Effect(SLIP, "slip of driven wheels", MOVING_SCENES, slip_criterion, slip_bound),
 )

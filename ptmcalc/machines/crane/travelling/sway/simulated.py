@@ -12,10 +12,10 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Finding, History
 from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.model import State, filled
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.machines.crane.travelling.sway.course import Course, Reading, State, Worst
+from ptmcalc.machines.crane.travelling.sway.course import Course, Reading, Worst
 from ptmcalc.machines.crane.travelling.sway.drive_laws import drive_laws
 from ptmcalc.machines.crane.travelling.sway.linear import linear_course, stalled
 from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of, stalls

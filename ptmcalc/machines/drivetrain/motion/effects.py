@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
-from ptmcalc.machines.drivetrain.links import bounds
+from ptmcalc.machines.drivetrain.motion import bounds
 from ptmcalc.machines.drivetrain.motion.loads import MOVING
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 
@@ -33,11 +33,11 @@ def elasticity_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
 
     **Range** any train; infinite if it is not linear: motor curves, brakes, friction, backlash, gear losses.
     **Error** an upper bound of the ratio, for an undamped train.
-    **Source** derived in `machines.drivetrain.links.bounds`; the threshold of 5 % is an engineering choice.
+    **Source** derived in `machines.drivetrain.motion.bounds`; the threshold of 5 % is an engineering choice.
     """
     value = bounds.largest_share(spec, scene)
     meaning = "oscillation added by the links / torque of the rigid train"
-    return Criterion("E", value, ELASTICITY_THRESHOLD, meaning, "machines.drivetrain.links.bounds")
+    return Criterion("E", value, ELASTICITY_THRESHOLD, meaning, "machines.drivetrain.motion.bounds")
 
 
 def elasticity_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mapping[str, Interval]:
@@ -47,7 +47,7 @@ def elasticity_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mappi
 
     **Range** linear trains with links initially at rest; otherwise unbounded.
     **Error** a bound for the undamped train; damping only reduces the load.
-    **Source** derived in `machines.drivetrain.links.bounds`.
+    **Source** derived in `machines.drivetrain.motion.bounds`.
     """
     if not spec.links:
         return {}
@@ -108,4 +108,4 @@ BACKLASH: Effect[Drivetrain, TrainScene] = Effect(
     bound=backlash_bound,
     part_of="elasticity",
 )
-EFFECTS_OF_LINKS = (ELASTICITY, BACKLASH)
+EFFECTS_OF_MOTION = (ELASTICITY, BACKLASH)

@@ -120,6 +120,17 @@ def compliance(spec: Stacker, direction: model.Direction) -> mast_compliance.Com
     return mast_compliance.Compliance(bending, girders.rotation + joint, girders.translation)
 
 
+def flexural_stiffness(spec: Stacker, direction: model.Direction) -> float:
+    """E J of all masts; of a file that gives the whole stiffness, that of a column with a rigid root [N*m^2]."""
+    return float(spec.column.length**3 / 3 / compliance(spec, direction).bending)
+
+
+def compliance_at(spec: Stacker, scene: StackerScene, place: float) -> mast_compliance.Compliance:
+    """Displacement per force so far from the root, in the direction of the scene, without a guide at the head [m/N]."""
+    whole, share = compliance(spec, model.direction(spec, scene)), place / spec.column.length
+    return mast_compliance.Compliance(whole.bending * share**3, whole.rotation * share**2, whole.translation)
+
+
 def rest_deflection(spec: Stacker, scene: StackerScene) -> float:
     """Lean of the far end at rest under weights beside its axis, in the direction of a scene [m]."""
     one = swinging(spec, scene)
