@@ -177,9 +177,9 @@ def damping_ratio(decrement: float | None, moves: Happening, mast: Mast) -> floa
     return ratio * float(mast.frequencies[0] / mast.rolling(moves.base.mass)[0][0])
 
 
-def case_of(spec: Stacker, moves: Happening, elements: int, modes: int) -> Case:
+def case_of(moves: Happening, decrement: float | None, elements: int, modes: int) -> Case:
     """What is marched: the mast in so many elements and modes."""
     length = moves.column.column.length
     mast = Mast.of(moves.column.column, elements, (length,))
-    ratios = np.full(min(modes, len(mast.frequencies)), damping_ratio(spec.column.log_decrement, moves, mast))
+    ratios = np.full(min(modes, len(mast.frequencies)), damping_ratio(decrement, moves, mast))
     return Case(mast, ratios, moves.base, (length,), moves.obstacle, moves.column.guide)

@@ -9,6 +9,7 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.stacking import model
@@ -80,9 +81,8 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
     if _panels(moves, modes, scene) > MOST_KEPT:
         raise too_much_memory(moves.lasts)
     most = most_work(_seconds(scene, moves, modes, level))
-    course = _play(spec, scene, moves, modes, most=most)
-    other = _play(spec, scene, moves, modes // 2, course.record.time, _COMPARED, most=most)
-    fine, coarse = Played(moves, course, _nudged(moves, course, most)), Played(moves, other)
+    course, other, nudged = _runs(moves, spec.column.log_decrement, model.window_factor(scene), modes, most)
+    fine, coarse = Played(moves, course, nudged), Played(moves, other)
     found = _of_the_column(moves.column, moves.rolling)
     if isinstance(scene, ObstacleScene):
         found |= blow_loads(fine, coarse)
@@ -124,35 +124,36 @@ def followed(moves: Happening, level: int) -> int:
     return min(modes, 2 * int((gives > _FAINT * gives[0]).sum()))
 
 
-def _play(
-    spec: Stacker,
-    scene: StackerScene,
-    moves: Happening,
-    modes: int,
-    end: float = 0.0,
-    refined: float = 1.0,
-    *,
-    keep: bool = False,
-    most: float = math.inf,
-) -> Course:
-    """One run: to an end that is given, or until the event is over and some swings after it; given up after so many
-    panels."""
-    case = march.case_of(spec, moves, _ELEMENTS * modes, modes)
-    if end:
-        return play(case, end, refined, keep=keep, most_work=most)
-    factor = model.window_factor(scene)
+Nudged = tuple[Course | None, Course | None]
+
+
+@remembered(16)
+def _runs(
+    moves: Happening, decrement: float | None, factor: float, modes: int, most: float
+) -> tuple[Course, Course, Nudged]:
+    """The run, the same with half as many modes, and with a little less and more speed; a machine that differs in
+    nothing that moves has the same."""
+    course = _play(moves, decrement, modes, factor, most)
+    coarser = march.case_of(moves, decrement, _ELEMENTS * (modes // 2), modes // 2)
+    other = play(coarser, course.record.time, _COMPARED, most_work=most)
+    return course, other, _nudged(moves, course, most)
+
+
+def _play(moves: Happening, decrement: float | None, modes: int, factor: float, most: float) -> Course:
+    """One run until the event is over and some swings after it; given up after so many panels."""
+    case = march.case_of(moves, decrement, _ELEMENTS * modes, modes)
     after = factor * _SWINGS * 2 * math.pi / float(case.mast.frequencies[0])
-    if isinstance(scene, ObstacleScene):
+    if moves.obstacle is not None:
         swing = 2 * math.pi * math.sqrt(moves.column.total / moves.column.stiffness)
-        return play(case, factor * _BLOW * swing, refined, most_work=most)
+        return play(case, factor * _BLOW * swing, most_work=most)
     end = moves.lasts + after
-    course = play(case, end, refined, most_work=most)
+    course = play(case, end, most_work=most)
     for _ in range(_DOUBLINGS):
         since = course.held_since
         if since + after <= course.record.time * (1 + 1e-9):
             break
         end = since + after if math.isfinite(since) else 2 * end
-        course = play(case, end, refined, most_work=most)
+        course = play(case, end, most_work=most)
     return course
 
 
@@ -180,7 +181,7 @@ def _stiffness(free: Column) -> dict[str, Found]:
     return {"column_stiffness": Found(Estimate.within(stiffness, bar))}
 
 
-def _nudged(moves: Happening, course: Course, most: float) -> tuple[Course | None, Course | None]:
+def _nudged(moves: Happening, course: Course, most: float) -> Nudged:
     """The same run of a base that has a little less speed to win or to lose, and a little more.
 
     When it stands, or has its speed, decides in which swing of the column it is held, and whether it slips again: what
@@ -224,7 +225,9 @@ def _remarks(scene: StackerScene, fine: Played) -> list[Finding]:
 
 def _histories(spec: Stacker, scene: StackerScene, moves: Happening, level: int, end: float) -> Mapping[str, History]:
     """Deflection, force and moment over time, from a run that keeps them."""
-    course = _play(spec, scene, moves, followed(moves, level), end, keep=True)
+    modes = followed(moves, level)
+    case = march.case_of(moves, spec.column.log_decrement, _ELEMENTS * modes, modes)
+    course = play(case, end, keep=True)
     times, deflections = course.over_time("deflection")
     force = (deflections * moves.column.stiffness).tolist()
     at = times.tolist()
