@@ -1,25 +1,23 @@
 """The compiled steps of a belt: `march.c`, which the installation compiles to a shared library beside this file.
 
-The library is loaded when the first belt is simulated. Each class here has the members of the struct of its name in
-`march.c`, in that order; arrays are passed by their address, so their owner keeps them.
+The library is loaded when the first belt is simulated, and compiled again before that where `march.c` changed. Each
+class here has the members of the struct of its name in `march.c`, in that order; arrays are passed by their address, so
+their owner keeps them.
 """
 
 import ctypes
-import hashlib
-import sys
+import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError, UsageError
+from ptmcalc.numerics.belt.compiler import LIBRARY, SOURCE, checksum, compiled, compiler
 from ptmcalc.numerics.belt.course import FloatArray
 
-SOURCE = Path(__file__).with_name("march.c")
-LIBRARY = SOURCE.with_name("libbelt" + {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so"))
 _CURE = "run `python -m pip install -e .` in the project's folder, or `python -m pip install .`"
 _ASK = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, ctypes.c_double, ctypes.POINTER(ctypes.c_double))
 _RAISED, _OFF_THE_GRID = 5, 6
@@ -120,24 +118,35 @@ class March(ctypes.Structure):
 _STRUCTS = (Law, Drum, Station, Give, Travel, March)
 
 
+def _compile_where_older() -> None:
+    if not SOURCE.exists() or (LIBRARY.exists() and checksum(SOURCE).encode() in LIBRARY.read_bytes()):
+        return
+    fault = "older than its source" if LIBRARY.exists() else "missing"
+    try:
+        compiled(SOURCE, LIBRARY)
+    except (OSError, subprocess.CalledProcessError) as error:
+        failed = error.strerror if isinstance(error, OSError) else "the compiler failed"
+        why = failed if compiler() else "no C compiler"
+        what = f"the compiled part of the belt simulation, {LIBRARY.name}"
+        raise UsageError(f"{what}, is {fault} and cannot be compiled: {why}", _CURE) from None
+
+
 @cache
 def library() -> ctypes.CDLL:
     """The compiled steps.
 
     Raises:
-        UsageError: they are not compiled, or from another text than that of `march.c`.
+        UsageError: they are not compiled from the present `march.c`, and cannot be.
     """
+    _compile_where_older()
     try:
         found = ctypes.CDLL(str(LIBRARY))
     except OSError as error:
         missing = "missing" if not LIBRARY.exists() else f"not usable ({error})"
         raise UsageError(f"the compiled part of the belt simulation, {LIBRARY.name}, is {missing}", _CURE) from None
-    found.belt_source.restype = ctypes.c_char_p
     sizes = (_WHOLE * len(_STRUCTS))()
     found.belt_sizes(sizes)
-    current = not SOURCE.exists() or found.belt_source().decode() == hashlib.sha256(SOURCE.read_bytes()).hexdigest()
-    if not current or list(sizes) != [ctypes.sizeof(one) for one in _STRUCTS]:
-        raise UsageError(f"the compiled part of the belt simulation, {LIBRARY.name}, is older than its source", _CURE)
+    assert list(sizes) == [ctypes.sizeof(one) for one in _STRUCTS]
     for name in ("advance", "begin", "pass_on", "march"):
         getattr(found, f"belt_{name}").restype = _WHOLE
     for name in ("velocity", "given", "energy"):
