@@ -1,5 +1,6 @@
 """The motor of a machine: what a file says of it, and its torque over speed and time."""
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
@@ -11,6 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from ptmcalc.base import units
 from ptmcalc.laws import motor
+from ptmcalc.numerics.belt.curve import CurveStage, Kloss
 from ptmcalc.spec.fields import (
     Measure,
     PositiveAngularSpeed,
@@ -46,6 +48,8 @@ class Stage:
     """whether the first and the last piece go on as straight lines; else the end values hold outside"""
     formula: Curve | None = None
     slope: Curve | None = None
+    kloss: Kloss | None = None
+    """numbers of `formula`"""
     until_speed: float | None = None
     """the next stage begins when the speed rises to it"""
     until_time: float | None = None
@@ -92,6 +96,20 @@ class Motor(Fragment):
     def stages(self) -> tuple[Stage, ...]:
         """The torque curves of the start, one after the other."""
         raise TypeError(f"{type(self).__name__} defines no stages")
+
+    @property
+    def curve_stages(self) -> tuple[CurveStage, ...]:
+        """The same as numbers."""
+        return tuple(
+            CurveStage(
+                stage.pieces or (),
+                stage.extends,
+                stage.kloss,
+                math.inf if stage.until_speed is None else stage.until_speed,
+                math.inf if stage.until_time is None else stage.until_time,
+            )
+            for stage in self.stages
+        )
 
     def torque(self, speed: ArrayLike, time: ArrayLike = 0.0) -> FloatArray:
         """Torque at a speed so long after the start; where stages end by speed, on the way up [N*m]."""
@@ -238,6 +256,7 @@ class InductionBase(Motor):
         return Stage(
             formula=lambda speed: motor.kloss(motor.slip(speed, synchronous), *curve),
             slope=lambda speed: -motor.kloss_slope(motor.slip(speed, synchronous), *curve) / synchronous,
+            kloss=Kloss(self.breakdown_torque, slip_of_most, self._stator_ratio / factor * slip_of_most, synchronous),
             until_speed=until_speed,
             until_time=until_time,
         )

@@ -1,7 +1,7 @@
 """Motors of a conveyor or chain in steady running: the most they pull and hold, and the torque each of them has."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,12 +11,15 @@ from ptmcalc.components.motor import AnyMotor, InductionBase
 from ptmcalc.components.motor_torque import overhauled_torque
 
 FloatArray = NDArray[np.float64]
+Forces = Sequence[FloatArray]
 
 SPEED_KEPT = 0.9
 """Part of the rated speed of the machine that the motors must keep under load; an engineering choice. Rated slips of
 small induction motors come to 7 %."""
 _LOOKS = 2001
-_ROUNDS = 200
+_PARTS, _ROUNDS = 32, 14
+"""Parts of an interval of speed in which a force is searched, and rounds [1]; numerical choices. 32^14 parts resolve
+any interval to its rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +78,10 @@ def steady_reserve(drives: Sequence[Motors], resistance: float, speed: float) ->
     return _most(drives, -1, 0.0) / -resistance
 
 
-def motor_torques(drives: Sequence[Motors], resistance: float, speed: float) -> list[float]:
-    """Torque of one motor of each drive in steady running [N*m].
+def shared_forces(
+    drives: Sequence[Motors], resistance: float, speed: float, forces: Callable[[FloatArray], Forces] | None = None
+) -> list[float]:
+    """Force of each drive in steady running [N].
 
         sum F(v) = W   on the branch on which the torque falls with the speed
 
@@ -84,24 +89,31 @@ def motor_torques(drives: Sequence[Motors], resistance: float, speed: float) -> 
         drives: motors of every drive.
         resistance: W, of the whole machine at the pulley; negative where the load drives it [N].
         speed: V, rated speed of belt or chain [m/s].
+        forces: force of each drive over the speed of the unloaded belt, where the belt does not have the same speed at
+            every drive; that of each drive at one common speed when left out.
 
     Returns:
-        The torques, in the order of the drives; negative where the motors brake. Drives that cannot carry W share it
+        The forces, in the order of the drives; negative where the motors brake. Drives that cannot carry W share it
         as they share their largest force.
 
     **Range** as `steady_reserve`.
-    **Error** exact for drives of one curve and gear; of others, that of 200 bisections.
+    **Error** exact for drives of one curve and gear at one speed; of others, the rounding of the interval search.
     **Source** derived: equilibrium on the torque curves.
     """
-    if len({repr(one) for one in drives}) == 1:
-        return [one.torque(resistance / len(drives)) for one in drives]
+    if forces is None and len({repr(one) for one in drives}) == 1:
+        return [resistance / len(drives) for _ in drives]
+    at = forces or _all(drives)
     marks = [mark for one in drives for mark in one.marks]
     low, high = 0.0, 4 * max(*marks, speed)
-    at = _speed_of_most(drives, 1, 0.0) if resistance > 0 else _zero_speed(drives, low, high)
+    start = _speed_of_most(drives, 1, 0.0) if resistance > 0 else _zero_speed(drives, low, high)
     end = high if resistance > 0 else _speed_of_most(drives, -1, 0.0)
-    forces = [float(one.force(np.array(_crossing(drives, resistance, at, end)))) for one in drives]
-    scale = resistance / sum(forces) if sum(forces) else 0.0
-    return [one.torque(scale * force) for one, force in zip(drives, forces, strict=True)]
+    found = [float(force) for force in at(np.array(_crossing(at, resistance, start, end)))]
+    scale = resistance / sum(found) if sum(found) else 0.0
+    return [scale * force for force in found]
+
+
+def _all(drives: Sequence[Motors]) -> Callable[[FloatArray], Forces]:
+    return lambda speeds: [one.force(speeds) for one in drives]
 
 
 def _total(drives: Sequence[Motors], speeds: FloatArray) -> FloatArray:
@@ -130,16 +142,17 @@ def _speed_of_most(drives: Sequence[Motors], sign: int, least: float) -> float:
 
 def _zero_speed(drives: Sequence[Motors], low: float, high: float) -> float:
     """The highest speed at which all drives together give no force [m/s]."""
-    return _crossing(drives, 0.0, _speed_of_most(drives, 1, low), high)
+    return _crossing(_all(drives), 0.0, _speed_of_most(drives, 1, low), high)
 
 
-def _crossing(drives: Sequence[Motors], force: float, low: float, high: float) -> float:
-    """Where the force of all drives falls to a value between two speeds, by bisection; the nearest end where it does
-    not [m/s]."""
+def _crossing(forces: Callable[[FloatArray], Forces], force: float, low: float, high: float) -> float:
+    """Where the force of all drives falls to a value between two speeds, by parts of the interval; the nearest end
+    where it does not [m/s]."""
     for _ in range(_ROUNDS):
-        middle = (low + high) / 2
-        if float(_total(drives, np.array(middle))) > force:
-            low = middle
-        else:
-            high = middle
+        speeds = np.linspace(low, high, _PARTS + 1)
+        above = np.flatnonzero(np.sum(forces(speeds), axis=0) > force)
+        at = int(above[-1]) if len(above) else 0
+        low, high = float(speeds[at]), float(speeds[min(at + 1, _PARTS)])
+        if not low < (low + high) / 2 < high:
+            break
     return (low + high) / 2

@@ -7,7 +7,7 @@ from typing import Any, Generic
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import number_at
-from ptmcalc.components.steady_drive import Motors, motor_torques, steady_reserve
+from ptmcalc.components.steady_drive import Motors, shared_forces, steady_reserve
 from ptmcalc.contract.check import Check, Sense, no_needs
 from ptmcalc.contract.effect import C, Criterion, S
 from ptmcalc.contract.result import Found, Result, of
@@ -45,7 +45,9 @@ class SteadyMotors(Generic[S, C]):
         return "curves" if self.several else "curve"
 
 
-def steady_loads(motors: Mapping[str, Motors], resistance: float, speed: float) -> Result:
+def steady_loads(
+    motors: Mapping[str, Motors], resistance: float, speed: float, forces: Mapping[str, float] | None = None
+) -> Result:
     """Reserve of all motors in steady running, and the share of its rated torque that each gives or brakes with.
 
         steady_reserve = max of sum F(v) / W,   motor_utilisation = |M|/M_n
@@ -54,6 +56,7 @@ def steady_loads(motors: Mapping[str, Motors], resistance: float, speed: float) 
         motors: of each drive by its name; a load of a drive without a name is no element of a family.
         resistance: W, of the whole machine at the pulley or sprocket; negative where the load drives it [N].
         speed: V, rated speed of belt or chain [m/s].
+        forces: of each drive at pulley or sprocket [N]; as all drives share W at one speed when left out.
 
     **Range** as `components.steady_drive.steady_reserve`.
     **Error** as there.
@@ -61,11 +64,12 @@ def steady_loads(motors: Mapping[str, Motors], resistance: float, speed: float) 
     """
     drives = list(motors.values())
     loads = {"steady_reserve": steady_reserve(drives, resistance, speed)}
-    torques = motor_torques(drives, resistance, speed)
-    for (name, one), torque in zip(motors.items(), torques, strict=True):
+    if forces is None:
+        forces = dict(zip(motors, shared_forces(drives, resistance, speed), strict=True))
+    for name, one in motors.items():
         if one.curve.rated is not None:
             load = of("motor_utilisation", name) if name else "motor_utilisation"
-            loads[load] = abs(torque) / one.curve.rated
+            loads[load] = abs(one.torque(forces[name])) / one.curve.rated
     return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
 
 

@@ -9,7 +9,7 @@ from pydantic import TypeAdapter
 from scipy.optimize import brentq, minimize_scalar
 
 from ptmcalc.components.motor import AnyMotor
-from ptmcalc.components.steady_drive import Motors, motor_torques, steady_reserve
+from ptmcalc.components.steady_drive import Motors, shared_forces, steady_reserve
 
 READER: TypeAdapter[Any] = TypeAdapter(AnyMotor)
 RPM = math.pi / 30
@@ -57,15 +57,16 @@ def test_induction_motors_together(seed: int) -> None:
     for load in (0.3 * most, -0.4 * most):
         at = brentq(lambda v, load=load: force(v) - load, max(near, 0.9 * speed) if load > 0 else full,
                     full if load > 0 else full + (full - near) / 2 + 1e-3, xtol=1e-14)  # fmt: skip
-        wanted = [float(one.curve.stages[-1].torque(at * TURNS)) for one in drives]
-        assert motor_torques(drives, load, speed) == pytest.approx(wanted, rel=1e-6)
+        wanted = [float(one.force(np.array(at))) for one in drives]
+        assert shared_forces(drives, load, speed) == pytest.approx(wanted, rel=1e-6)
 
 
 def test_motors_that_brake_hold_their_breakdown_torque() -> None:
     drives = [Motors(induction(11e3, 1455, 2.4), 2, TURNS, 0.9)]
     breakdown = 2.4 * 11e3 / (1455 * RPM)
     assert steady_reserve(drives, -5e3, 2.5) == pytest.approx(2 * breakdown * TURNS / 0.9 / 5e3, rel=1e-12)
-    assert motor_torques(drives, -5e3, 2.5) == pytest.approx([-5e3 * 0.9 / TURNS / 2], rel=1e-12)
+    assert shared_forces(drives, -5e3, 2.5) == [-5e3]
+    assert drives[0].torque(-5e3) == pytest.approx(-5e3 * 0.9 / TURNS / 2, rel=1e-12)
 
 
 def test_nothing_to_carry_needs_no_motor() -> None:
@@ -82,6 +83,6 @@ def test_a_linear_motor_holds_any_load_and_a_constant_one_none() -> None:
 
 def test_drives_that_cannot_carry_the_load_share_it_as_their_largest_forces() -> None:
     drives = [Motors(induction(11e3, 1455, 2.4), 1, TURNS, 0.9), Motors(induction(22e3, 1455, 2.4), 1, TURNS, 0.9)]
-    one, two = motor_torques(drives, 1e6, 2.5)
+    one, two = shared_forces(drives, 1e6, 2.5)
     assert two == pytest.approx(2 * one, rel=1e-6)
-    assert (one + two) * TURNS * 0.9 == pytest.approx(1e6)
+    assert one + two == pytest.approx(1e6)

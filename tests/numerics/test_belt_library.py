@@ -6,14 +6,18 @@ import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from pydantic import TypeAdapter
 from scipy.optimize import brentq
 
 from ptmcalc.base.errors import NumericsError, UsageError
+from ptmcalc.components.motor import AnyMotor
 from ptmcalc.numerics.belt import library as compiled
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
+from ptmcalc.numerics.belt.curve import MotorForce
 from ptmcalc.numerics.belt.give import Give, Rubber
 from ptmcalc.numerics.belt.library import OverTime
 from ptmcalc.numerics.belt.march import Drawn, Until, march, place_at
@@ -210,6 +214,50 @@ def test_a_march_ends_when_the_head_has_rested_or_grips_again() -> None:
     assert grips.head[-2].slips != grips.head[-1].slips == (0,)
     assert not any(one.lost_grip for one in (rest, grips))
     assert until(Until(presses=1e6), slipping).lost_grip
+
+
+# -- motors on their curves ------------------------------------------------------------------------------------------
+
+
+MOTORS: dict[str, dict[str, Any]] = {
+    "induction": {"type": "induction", "power": "90 kW", "speed": "1480 rpm", "synchronous_speed": "1500 rpm",
+                  "overload": 2.6},
+    "full": {"type": "induction", "power": "90 kW", "speed": "1450 rpm", "synchronous_speed": "1500 rpm",
+             "overload": 2.2, "formula": "full"},
+    "steps": {"type": "rheostat", "power": "90 kW", "speed": "1470 rpm", "synchronous_speed": "1500 rpm",
+              "overload": 2.6, "steps": [9, 4, 2], "smallest_torque": "700 N*m"},
+    "times": {"type": "rheostat", "power": "90 kW", "speed": "1470 rpm", "synchronous_speed": "1500 rpm",
+              "overload": 2.6, "steps": [9, 4], "switch_times": ["2 s", "5 s"]},
+    "converter": {"type": "converter", "power": "90 kW", "speed": "1480 rpm", "slip": 0.02, "ramp_time": "6 s",
+                  "torque_limit": "900 N*m"},
+    "linear": {"type": "linear", "starting_torque": "900 N*m", "no_load_speed": "1500 rpm"},
+    "constant": {"type": "constant", "torque": "500 N*m"},
+    "table": {"type": "table", "points": [{"speed": "0 rpm", "torque": "800 N*m"}, {"speed": "900 rpm",
+              "torque": "1000 N*m"}, {"speed": "1500 rpm", "torque": "-20 N*m"}]},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", MOTORS)
+def test_a_motor_on_its_curve_pulls_in_c_and_in_python_what_the_laws_of_the_motor_say(kind: str) -> None:
+    motor, random = TypeAdapter(AnyMotor).validate_python(MOTORS[kind]), np.random.default_rng(5)
+    turns, force = 40.0, 40.0 * 2
+    ramp = motor.ramp_time if kind == "converter" else 0.0
+    given = MotorForce(motor.curve_stages, turns, force * 0.9, force / 0.9, delay=1.0, off=3.0, again=4.5,
+                       reference=motor.speed if ramp else 0.0, ramp=ramp)  # fmt: skip
+    laws = compiled.Laws()
+    law = laws.of_speed(given)
+    for time, speed in zip(random.uniform(0, 12, 400).tolist(), random.uniform(-2, 8, 400).tolist(), strict=True):
+        since = time - (1.0 if time < 3.0 else 4.5)
+        torque = float(motor.torque(speed * turns, since)) if since >= 0 else 0.0
+        wanted = torque * force * (0.9 if torque > 0 else 1 / 0.9)
+        slope = np.zeros(1)
+        found = compiled.library().belt_force(compiled.address_of(law), time, speed, compiled.address(slope))
+        assert found == pytest.approx(wanted, rel=1e-11, abs=1e-7)
+        assert given(time, speed) == pytest.approx((found, slope[0]), rel=1e-12, abs=1e-7)
+        near = 1e-6
+        rise = (given(time, speed + near)[0] - given(time, speed - near)[0]) / (2 * near)
+        if abs(rise) < 1e6:  # no stage begins there
+            assert slope[0] == pytest.approx(rise, rel=1e-3, abs=0.1)
 
 
 # -- the library ------------------------------------------------------------------------------------------------------

@@ -1,15 +1,18 @@
-"""What the drives pull: their shares in steady motion, their force over a start, the rigid conveyor under it."""
+"""What the drives pull: in steady motion, over a start, and the rigid conveyor under it."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from ptmcalc.base.memory import kept_for
+from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.laws import start_profile
+from ptmcalc.machines.conveyor.load_sharing import steady_forces
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_line_filled, drive_force
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, PlacedDrive, Start
+from ptmcalc.numerics.belt.curve import MotorForce
 from ptmcalc.numerics.belt.station import Torque
 
 _NEARLY, _LEAST_UP_TO = 0.98, 0.9
@@ -25,29 +28,14 @@ and the integration stops after 200 such times. Heun's rule has an error of seco
 the time and leaves a quarter of the error."""
 
 
-@kept_for(64)
-def share(spec: Conveyor) -> Mapping[str, float]:
-    """Part of the whole driving force that each drive has."""
-    forces = {name: drive_force(drive) for name, drive in spec.all_drives.items()}
-    whole = sum(forces.values())
-    return {name: force / whole for name, force in forces.items()}
-
-
-def same_drives(drives: Iterable[PlacedDrive]) -> bool:
-    """Whether drives share the pull in steady motion as their mean starting torques do: their motors have one curve of
-    torque over speed, on pulleys of one speed; taken to be so where no curve is given."""
-    several = list(drives)
-    if all(one.motor.curve is None for one in several):
-        return True
-    return len({repr((one.motor.curve, one.gear.ratio, one.drum.diameter)) for one in several}) == 1
-
-
 def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
     """The belt in steady motion: drives at the tail take their share of the resistance there."""
     line = belt_line_filled(spec, scene, filling) if filling else belt_line(spec, scene)
-    shares = share(spec)
-    tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
-    return replace(line, tail_pull=tail * line.static_resistance) if tail else line
+    at_tail = [name for name, drive in spec.all_drives.items() if drive.at == "tail"]
+    if not at_tail:
+        return line
+    forces = steady_forces(spec, line)
+    return replace(line, tail_pull=sum(forces[name] for name in at_tail))
 
 
 def moving_mass(line: BeltLine) -> float:
@@ -121,29 +109,28 @@ def _between(gained: FloatArray, top: float) -> FloatArray:
     return np.array(found)
 
 
-def along_curve(scene: Start, drive: PlacedDrive) -> Torque:
+def along_curve(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorForce:
     """Rim force of a drive and its slope over the rim's speed, by its motors' curve.
 
-    F = n M(w, t) i eta/R driving,   n M i/(eta R) where the motors brake
+    F = n M(w, t) i eta/R driving,   n M i/(eta R) where the motors brake,   w = v (1 - creep) i/R
+
+    `creep` is the part by which the pulley is slower than the belt that comes to the drives of its place [1].
     """
-    curve, count, ratio = drive.motor.curve, drive.motor.count, drive.gear.ratio
-    assert curve is not None
+    motor, ratio = drive.motor, drive.gear.ratio
+    assert motor.curve is not None
     efficiency, turns = filled(drive.gear.efficiency), ratio / (drive.drum.diameter / 2)
     aborted = scene.aborted
-    again = (aborted.run + aborted.pause if aborted else 0.0) + drive.delay
-
-    def force(time: float, speed: float) -> tuple[float, float]:
-        since = time - again
-        if aborted and time < aborted.run:
-            since = time - drive.delay
-        if since < 0:
-            return 0.0, 0.0
-        near = 1e-6 * max(abs(speed), 1.0)
-        torques = count * turns * curve.torque(np.array([speed, speed + near]) * turns, since)
-        forces = np.where(torques > 0, torques * efficiency, torques / efficiency)
-        return float(forces[0]), float(forces[1] - forces[0]) / near
-
-    return force
+    return MotorForce(
+        motor.curve.curve_stages,
+        (1 - creep) * turns,
+        motor.count * turns * efficiency,
+        motor.count * turns / efficiency,
+        delay=drive.delay,
+        off=aborted.run if aborted else -math.inf,
+        again=drive.delay + (aborted.run + aborted.pause if aborted else 0.0),
+        reference=motor.curve.speed if isinstance(motor.curve, ConverterMotor) else 0.0,
+        ramp=motor.curve.ramp_time if isinstance(motor.curve, ConverterMotor) else 0.0,
+    )
 
 
 def least_pull(spec: Conveyor, scene: Start) -> float:

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ptmcalc.laws import capstan, start_profile
-from ptmcalc.machines.conveyor.drives import along_curve, at_rest, pull, rigid_curve_start, rigid_start, running, share
+from ptmcalc.machines.conveyor.drives import along_curve, at_rest, pull, rigid_curve_start, rigid_start, running
+from ptmcalc.machines.conveyor.load_sharing import creep_of, starting_shares, steady_forces
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force
 from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Start, Stop, Stopping
@@ -74,11 +75,10 @@ def _usual(spec: Conveyor, scene: ConveyorScene) -> Moving:
     """The same over the usual window."""
     line = running(spec, scene)
     names = list(spec.all_drives)
-    whole = line.static_resistance + line.tail_pull
     if isinstance(scene, Start):
         return _start(spec, scene, line)
-    held = {name: share(spec)[name] * whole for name in names}
     if isinstance(scene, Jam):
+        held = steady_forces(spec, line)
         there = [name for name in names if spec.all_drives[name].at != scene.at]
         pulls = {name: _constant(held[name] if name in there else 0.0) for name in names}
         return Moving(
@@ -109,7 +109,8 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
         return Moving(spec, scene, line, pulls, imposed, 0.0, window, rise, math.nan)
     pulls = {name: pull(scene, drive, rise) for name, drive in spec.all_drives.items()}
     if profile.shape == "curve":
-        curves = {name: along_curve(scene, drive) for name, drive in spec.all_drives.items()}
+        creep = creep_of(spec, line)
+        curves = {name: along_curve(scene, drive, creep[name]) for name, drive in spec.all_drives.items()}
         pulls = {name: at_rest(curve) for name, curve in curves.items()}
         time, way = rigid_curve_start(line, curves)
         return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, time), time, way, curves)
@@ -136,8 +137,7 @@ def rough_utilisation(spec: Conveyor, scene: ConveyorScene) -> float:
     line = running(spec, scene)
     if isinstance(scene, Jam):
         return math.inf
-    shares = share(spec)
-    whole = line.static_resistance + line.tail_pull
+    forces, braked = steady_forces(spec, line), 2 * deceleration(spec, scene, line)
     belt = line.carry.line_mass * line.carry.length + line.back.line_mass * line.back.length
     behind, worst = line.run_off, 0.0
     for name, drive in reversed(list(spec.all_drives.items())):
@@ -146,7 +146,7 @@ def rough_utilisation(spec: Conveyor, scene: ConveyorScene) -> float:
         added = (
             drive_force(drive)
             if isinstance(scene, Start)
-            else shares[name] * (whole - 2 * belt * deceleration(spec, scene, line))
+            else forces[name] - starting_shares(spec)[name] * belt * braked
         )
         above = behind + added
         if drive.drum.friction is not None:

@@ -17,6 +17,7 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError, UsageError
 from ptmcalc.numerics.belt.compiler import LIBRARY, SOURCE, checksum, compiled, compiler
 from ptmcalc.numerics.belt.course import FloatArray
+from ptmcalc.numerics.belt.curve import MotorForce
 
 _CURE = "run `python -m pip install -e .` in the project's folder, or `python -m pip install .`"
 _ASK = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, ctypes.c_double, ctypes.POINTER(ctypes.c_double))
@@ -42,12 +43,27 @@ def _members(**kinds: str) -> list[tuple[str, type]]:
     return found
 
 
+class Stage(ctypes.Structure):
+    """Torque of a motor over its speed until the next stage."""
+
+    _fields_ = _members(
+        array="speeds torques", whole="knots extends", real="breakdown slip stator synchronous until_speed until_time"
+    )
+
+
+class Curve(ctypes.Structure):
+    """Motors on their curve."""
+
+    _fields_ = _members(array="stages", whole="count", real="turns drives brakes delay off again reference ramp")
+
+
 class Law(ctypes.Structure):
-    """A force [N] by time and speed, or another value by time: nothing, samples with ramps, or a function."""
+    """A force [N] by time and speed, or another value by time: nothing, samples with ramps, motors on their curve, or a
+    function."""
 
     _fields_ = (
         ("samples", _ADDRESS), ("count", _WHOLE), ("step", _REAL), ("ramps", _ADDRESS), ("ramp_count", _WHOLE),
-        ("asked", _ASK),
+        ("curve", _ADDRESS), ("asked", _ASK),
     )  # fmt: skip
 
 
@@ -115,7 +131,7 @@ class March(ctypes.Structure):
     )  # fmt: skip
 
 
-_STRUCTS = (Law, Drum, Station, Give, Travel, March)
+_STRUCTS = (Stage, Curve, Law, Drum, Station, Give, Travel, March)
 
 
 def _compile_where_older() -> None:
@@ -149,7 +165,7 @@ def library() -> ctypes.CDLL:
     assert list(sizes) == [ctypes.sizeof(one) for one in _STRUCTS]
     for name in ("advance", "begin", "pass_on", "march"):
         getattr(found, f"belt_{name}").restype = _WHOLE
-    for name in ("velocity", "given", "energy"):
+    for name in ("velocity", "given", "energy", "force"):
         getattr(found, f"belt_{name}").restype = _REAL
     for name in ("hang", "carry", "start", "exponential"):
         getattr(found, f"belt_{name}").restype = None
@@ -161,6 +177,7 @@ def library() -> ctypes.CDLL:
         ("velocity", [*[_REAL] * 3, _ADDRESS, _ADDRESS, _REAL, _ADDRESS]),
         ("given", [_ADDRESS]),
         ("energy", [_ADDRESS]),
+        ("force", [_ADDRESS, *[_REAL] * 2, _ADDRESS]),
         ("hang", [_ADDRESS] * 2),
         ("carry", [_ADDRESS] * 6),
         ("start", [_ADDRESS]),
@@ -228,6 +245,8 @@ class Laws:
         """A force over time and speed, and its slope over the speed."""
         if given is None or isinstance(given, OverTime):
             return self._sampled(given)
+        if isinstance(given, MotorForce):
+            return self._on_curve(given)
 
         def asked(time: float, speed: float, found: "ctypes._Pointer[ctypes.c_double]") -> int:
             try:
@@ -239,6 +258,24 @@ class Laws:
 
         self._alive.append(kept := _ASK(asked))
         return Law(asked=kept)
+
+    def _on_curve(self, given: MotorForce) -> Law:
+        stages = (Stage * len(given.stages))()
+        for made, stage in zip(stages, given.stages, strict=True):
+            knots = np.array(stage.knots, float).reshape(-1, 2)
+            speeds, torques = np.ascontiguousarray(knots[:, 0]), np.ascontiguousarray(knots[:, 1])
+            made.speeds, made.torques, made.knots = address(speeds), address(torques), len(knots)
+            made.extends = stage.extends
+            if stage.kloss is not None:
+                made.breakdown, made.slip = stage.kloss.torque, stage.kloss.slip
+                made.stator, made.synchronous = stage.kloss.stator, stage.kloss.synchronous
+            made.until_speed, made.until_time = stage.until_speed, stage.until_time
+            self._alive += [speeds, torques]
+        times = given.delay, given.off, given.again
+        curve = Curve(address_of(stages), len(stages), given.turns, given.drives, given.brakes, *times,
+                      given.reference, given.ramp)  # fmt: skip
+        self._alive += [stages, curve]
+        return Law(curve=address_of(curve))
 
     def _sampled(self, given: OverTime | None) -> Law:
         if given is None:

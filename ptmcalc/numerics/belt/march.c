@@ -40,14 +40,31 @@ enum { GOES_ON, IS_STILL, LOST_GRIP };
 #define ON_THE_GRID 1e-6 /* distance of a time from the grid, relative to the step [1], that counts as rounding */
 #define SERIES 1e-3     /* time constants below which the series of the exponentials is used [1]: rounding without it */
 
+/* Torque over the speed of a motor until the next stage: straight lines between knots up to the last of them, beyond it
+   the formula of Kloss; `breakdown` 0 where there is none. */
+typedef struct {
+    const double *speeds, *torques;
+    int64_t knots, extends;
+    double breakdown, slip, stator, synchronous, until_speed, until_time;
+} Stage;
+
+/* Motors on their curve: curve.py. */
+typedef struct {
+    const Stage *stages;
+    int64_t count;
+    double turns, drives, brakes, delay, off, again, reference, ramp;
+} Curve;
+
 /* A force [N] at the rim by time and speed, or another value by time: nothing, samples on a grid of time with ramps of
-   (size, delay, rise) on top of them, or a function of the caller that returns 0, the value and its slope. */
+   (size, delay, rise) on top of them, motors on their curve, or a function of the caller that returns 0, the value and
+   its slope. */
 typedef struct {
     const double *samples;
     int64_t count;
     double step;
     const double *ramps;
     int64_t ramp_count;
+    const Curve *curve;
     int (*asked)(double time, double speed, double *found);
 } Law;
 
@@ -120,8 +137,9 @@ SHARED const char *belt_source(void) { return SOURCE; }
 
 SHARED void belt_sizes(int64_t *sizes)
 {
-    const int64_t found[] = {sizeof(Law), sizeof(Drum), sizeof(Station), sizeof(Give), sizeof(Travel), sizeof(March)};
-    for (int i = 0; i < 6; i++)
+    const int64_t found[] = {sizeof(Stage), sizeof(Curve), sizeof(Law), sizeof(Drum), sizeof(Station), sizeof(Give),
+                             sizeof(Travel), sizeof(March)};
+    for (int i = 0; i < 8; i++)
         sizes[i] = found[i];
 }
 
@@ -194,10 +212,59 @@ static double ramps_at(const Law *law, double time)
     return whole;
 }
 
+/* Torque of Kloss and its slope over the speed. */
+static double kloss(const Stage *stage, double speed, double *slope)
+{
+    double slip = (stage->synchronous - speed) / stage->synchronous, q = stage->stator;
+    int inside = fabs(slip) <= stage->slip;
+    double x = inside ? slip / stage->slip : stage->slip / slip;
+    double below = (1 + x) * (1 + x) - 2 * x * (1 - q), whole = 2 * stage->breakdown * (1 + q);
+    double rise = (1 - x) * (1 + x) * (inside ? 1.0 : -x * x) / (below * below);
+    *slope = -whole / stage->slip * rise / stage->synchronous;
+    return whole * x / below;
+}
+
+static double torque_of(const Stage *stage, double speed, double *slope)
+{
+    int64_t last = stage->knots - 1;
+    const double *speeds = stage->speeds, *torques = stage->torques;
+    *slope = 0.0;
+    if (last < 0 || (stage->breakdown > 0 && speed > speeds[last]))
+        return kloss(stage, speed, slope);
+    if (last == 0)
+        return torques[0];
+    if (!stage->extends && !(speeds[0] <= speed && speed <= speeds[last]))
+        return torques[speed < speeds[0] ? 0 : last];
+    int64_t i = 1;
+    while (i < last && speed > speeds[i])
+        i++;
+    *slope = (torques[i] - torques[i - 1]) / (speeds[i] - speeds[i - 1]);
+    return torques[i - 1] + *slope * (speed - speeds[i - 1]);
+}
+
+/* Force of motors at the rim, and its slope over the rim speed. */
+static double on_curve(const Curve *curve, double time, double speed, double *slope)
+{
+    double since = time - (time < curve->off ? curve->delay : curve->again), turning = speed * curve->turns;
+    const Stage *stage = curve->stages;
+    *slope = 0.0;
+    if (since < 0)
+        return 0.0;
+    for (int64_t i = 1; i < curve->count && !(turning < stage->until_speed && since < stage->until_time); i++)
+        stage++;
+    if (curve->ramp > 0)
+        turning += curve->reference * (1 - least(since / curve->ramp, 1.0));
+    double torque = torque_of(stage, turning, slope), factor = torque > 0 ? curve->drives : curve->brakes;
+    *slope *= factor * curve->turns;
+    return factor * torque;
+}
+
 /* Value of a law at a time and speed, and its slope over the speed; a fault is noted at the station. */
 static double value_of(const Law *law, double time, double speed, double *slope, Station *s)
 {
     *slope = 0.0;
+    if (law->curve)
+        return on_curve(law->curve, time, speed, slope);
     if (law->asked) {
         double found[2] = {0.0, 0.0};
         if (law->asked(time, speed, found))
@@ -214,6 +281,12 @@ static double value_of(const Law *law, double time, double speed, double *slope,
     }
     double found = law->samples[(int64_t)k];
     return law->ramp_count ? found + ramps_at(law, fabs(place - k) > ON_THE_GRID ? time : k * law->step) : found;
+}
+
+/* Force of motors on their curve, and its slope over the rim speed: curve.py. */
+SHARED double belt_force(const Law *law, double time, double speed, double *slope)
+{
+    return on_curve(law->curve, time, speed, slope);
 }
 
 static double brake_at(Drum *drum, double time, Station *s)

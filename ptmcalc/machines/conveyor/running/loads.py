@@ -10,7 +10,7 @@ from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo, of
 from ptmcalc.laws import belt_section, sag, vertical_curve
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.drives import running, share
+from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
@@ -150,15 +150,17 @@ def fillings(spec: Conveyor, scene: Run) -> Fillings:
     """All fillings of a conveyor in steady running.
 
     A loaded section adds its pull to the tension downstream of it, less the share that drives at the tail take; in a
-    fixed loop the mean of that is taken off everywhere. All is linear in the load of each section.
+    fixed loop the mean of that is taken off everywhere. All is linear in the load of each section; on the curves of
+    motors the share of the tail is the secant between the empty and the full belt.
     """
     count = len(spec.route.parts)
     empty, full = (running(spec, scene, [loaded] * count) for loaded in (False, True))
     pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
     everywhere = np.array([full.tail_force - empty.tail_force] + [0.0] * (count - 1))
-    shares = share(spec)
-    at_tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
-    everywhere = everywhere - at_tail * (pulls + everywhere)
+    if full.tail_pull or empty.tail_pull:
+        more = full.tail_pull - empty.tail_pull
+        pulled = full.static_resistance - empty.static_resistance + more
+        everywhere = everywhere - (more / pulled if pulled else 0.0) * (pulls + everywhere)
     marks, whole = np.array(full.carry.marks), full.carry.length
     if full.fixed_length:
         rest = np.diff(marks) / 2 + whole - marks[1:]

@@ -1,35 +1,15 @@
 """Steady running on the torque curves of the motors: reserve of all drives, torque of each motor over its rated one."""
 
-from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.steady_drive import Motors
 from ptmcalc.components.steady_drive_checks import SteadyMotors, steady_loads, steady_solver
 from ptmcalc.contract.result import Result
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.load_sharing import motors_of, steady_forces
+from ptmcalc.machines.conveyor.model import belt_line
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run, Start
 
 
-@kept_for(64)
-def motors_of(spec: Conveyor) -> dict[str, Motors]:
-    """The motors of each drive; empty where one of them has no curve."""
-    drives = spec.all_drives
-    found = {
-        name: Motors(
-            curve=drive.motor.curve,
-            count=drive.motor.count,
-            turns=drive.gear.ratio / (drive.drum.diameter / 2),
-            efficiency=filled(drive.gear.efficiency),
-        )
-        for name, drive in drives.items()
-        if drive.motor.curve is not None
-    }
-    return found if len(found) == len(drives) else {}
-
-
 def _resistance(spec: Conveyor, scene: ConveyorScene) -> float:
-    line = running(spec, Run(load=scene.load))
-    return line.static_resistance + line.tail_pull
+    return belt_line(spec, Run(load=scene.load)).static_resistance
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
@@ -40,11 +20,12 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
     A start is assessed for the steady running that follows it.
 
-    **Range** motors with a curve; all drives at one belt speed.
+    **Range** motors with a curve; the reserve is that of all drives at one belt speed.
     **Error** exact; with different curves one part in a million.
-    **Source** derived: equilibrium on the torque curves (`components.steady_drive`).
+    **Source** derived: equilibrium on the torque curves (`components.steady_drive`, `load_sharing.steady_forces`).
     """
-    return steady_loads(motors_of(spec), _resistance(spec, scene), spec.speed)
+    line = belt_line(spec, Run(load=scene.load))
+    return steady_loads(motors_of(spec), line.static_resistance, spec.speed, steady_forces(spec, line))
 
 
 def _curve_key(spec: Conveyor, name: str) -> KeyPath:

@@ -12,7 +12,8 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.drives import running, same_drives, share
+from ptmcalc.machines.conveyor.drives import running
+from ptmcalc.machines.conveyor.load_sharing import sharing_is_known, steady_forces
 from ptmcalc.machines.conveyor.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.resistances import filled
@@ -43,8 +44,8 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
         S(s) = S_off + integral of (resistance + gradient) ds;   S_on = S_off + W
 
     S_off is the take-up tension (gravity take-up), or the value for which the mean tension of the loop is the mounting
-    tension (fixed take-up: the total elongation of the belt is constant). Several drives share W in proportion to their
-    torques.
+    tension (fixed take-up: the total elongation of the belt is constant). Several drives share W by the curves of their
+    motors (`load_sharing.steady_forces`); without curves, in proportion to their mean starting torques.
 
     **Range** the take-up after the head pulleys; friction independent of speed.
     **Error** exact for that model: a sum of the given resistances.
@@ -64,6 +65,7 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     lows = number(tensions[:back].min()), number(tensions[back:].min())
     loads |= tension_loads.derived_loads(line, number(tensions[high]), lows)
     loads |= _of_drives(spec, line)
+    loads |= _between_drives(spec, line, loads)
     loads |= _of_running(spec, scene, line, places, tensions)
     loads |= static_loads(spec, scene, line)
     at = {"tension_max": {"position": number(places[high])}, "tension_min": {"position": number(places[low])}}
@@ -74,15 +76,15 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
         return {"tension_max": course, "tension_min": course}
 
     beyond = _unshared(spec, found)
-    state = "the slip curves of the motors determine their load sharing" if beyond else ""
+    state = "the `curve` of each motor determines the load sharing of unequal drives" if beyond else ""
     return Result(found, work=1, histories=histories, beyond=beyond, open_end=state)
 
 
 def _unshared(spec: Conveyor, found: Iterable[str]) -> dict[str, Interval]:
-    """Loads that depend on how different drives share the pull, without a bound."""
-    drives = spec.all_drives.values()
-    if same_drives(drives):
+    """Loads that depend on how different drives share the pull, without a bound where the file does not say it."""
+    if sharing_is_known(spec):
         return {}
+    drives = spec.all_drives.values()
     several = {one.at for one in drives} == {"head", "tail"}
     names = [name for name in found if family(name) in PER_DRIVE and ("[" in name or family(name) in GRIP)] + [
         name for name in found if several and name in OF_BELT - set(GRIP)
@@ -99,13 +101,13 @@ def _round_the_loop(line: BeltLine) -> tuple[FloatArray, FloatArray]:
 
 def _of_drives(spec: Conveyor, line: BeltLine) -> dict[str, float]:
     """Tensions and grip of every drive, and the worst of them."""
-    shares, whole = share(spec), line.static_resistance + line.tail_pull
+    forces = steady_forces(spec, line)
     loads: dict[str, float] = {}
     worst: list[dict[str, float]] = []
     for at, behind in (("head", line.run_off), ("tail", line.static_ends(CARRY)[0])):
         drives = [(name, drive) for name, drive in spec.all_drives.items() if drive.at == at]
         for name, drive in reversed(drives):
-            above = behind + shares[name] * whole
+            above = behind + forces[name]
             loads[of("tension_run_on_max", name)], loads[of("tension_run_off_min", name)] = above, behind
             if drive.drum.friction is not None:
                 sides = [tension_loads.Sides(above, behind, line.centrifugal_at_speed)]
@@ -116,6 +118,17 @@ def _of_drives(spec: Conveyor, line: BeltLine) -> dict[str, float]:
         loads["slip_utilisation_max"] = max(one["slip_utilisation_max"] for one in worst)
         loads["slip_reserve_min"] = min(one["slip_reserve_min"] for one in worst)
     return loads
+
+
+def _between_drives(spec: Conveyor, line: BeltLine, loads: dict[str, float]) -> dict[str, float]:
+    """Extreme tensions between the pulleys of one place, where a drive brakes against another one."""
+    forces = steady_forces(spec, line)
+    if len(forces) == 1 or all(force >= 0 for force in forces.values()):
+        return {}
+    sides = [loads[of(side, name)] for side in ("tension_run_on_max", "tension_run_off_min") for name in forces]
+    high, low = max(loads["tension_max"], *sides), min(loads["tension_min"], *sides)
+    found = {"tension_max": high, "tension_min": low, "slack_margin_min": min(loads["slack_margin_min"], low)}
+    return found | ({"belt_safety_min": line.breaking_force / high} if line.breaking_force and high > 0 else {})
 
 
 def _of_running(
@@ -143,8 +156,8 @@ def _of_running(
         "effective_tension_worst": nothing + _worst_load(spec, scene, empty),
         "power_drive_running": value(belt_resistance.shaft_power, pull, line.speed),
         "power_drive_empty": value(belt_resistance.shaft_power, nothing, line.speed),
-        "power_motor_running": _motor_power(spec, pull * line.speed),
-        "power_motor_empty": _motor_power(spec, nothing * line.speed),
+        "power_motor_running": _motor_power(spec, line),
+        "power_motor_empty": _motor_power(spec, empty),
         "belt_cycle_time": belt_resistance.cycle_time(line.back.length + line.carry.length, line.speed),
         "takeup_travel": value(
             belt_resistance.takeup_travel,
@@ -169,11 +182,11 @@ def _of_running(
     return loads
 
 
-def _motor_power(spec: Conveyor, power: float) -> float:
-    """Power of all motors for a power on the drum shafts [W], each through its own gear."""
-    shares = share(spec)
+def _motor_power(spec: Conveyor, line: BeltLine) -> float:
+    """Power of all motors [W], each through its own gear."""
+    forces = steady_forces(spec, line)
     return sum(
-        value(belt_resistance.motor_power, shares[name] * power, filled(drive.gear.efficiency))
+        value(belt_resistance.motor_power, forces[name] * line.speed, filled(drive.gear.efficiency))
         for name, drive in spec.all_drives.items()
     )
 

@@ -12,8 +12,9 @@ from ptmcalc.contract.result import Found, family, of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
+from ptmcalc.machines.conveyor.load_sharing import shares_at
 from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force, grips, starting_force
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, grips, starting_force
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.numerics.free_waves import Row, swings
 
@@ -150,13 +151,12 @@ class _After:
         return worst | dict(self._of_drives())
 
     def _of_drives(self) -> Iterator[tuple[str, float]]:
-        """Tensions and grip of every drive; drives at one place share what the belt takes by their starting forces."""
+        """Tensions and grip of every drive; drives at one place share what the belt takes as in steady running."""
         friction, spec, used, left = grips(self.spec), self.spec, [], []
         lift = self.line.centrifugal_at_speed
         for place, first, last in (("head", (CARRY, -1), (RETURN, 0)), ("tail", (RETURN, -1), (CARRY, 0))):
             names = [name for name, drive in spec.all_drives.items() if drive.at == place]
-            forces = np.array([drive_force(spec.all_drives[name]) for name in names])
-            shares = np.concatenate([[0.0], np.cumsum(forces) / forces.sum()]) if names else np.zeros(1)
+            shares = np.concatenate([[0.0], np.cumsum(shares_at(spec, self.line, place))])
             least, most = (
                 _part(1 - shares, float(side[first])) + _part(shares, float(side[last]))
                 for side in (self.least, self.most)

@@ -1,0 +1,97 @@
+"""The force of a drive that follows the torque curves of its motors, as plain numbers that C and Python read alike."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Kloss:
+    """Torque of an induction motor, M = 2 M_k (1 + q) x/(1 + 2 q x + x^2) with x = s/s_k or its inverse.
+
+    `torque` M_k [N*m], `slip` s_k, `stator` q = a s_k, `synchronous` w_0 [rad/s].
+    """
+
+    torque: float
+    slip: float
+    stator: float
+    synchronous: float
+
+    def at(self, speed: float) -> tuple[float, float]:
+        """Torque [N*m] and its slope over the speed [N*m*s/rad]."""
+        slip = (self.synchronous - speed) / self.synchronous
+        inside = abs(slip) <= self.slip
+        x = slip / self.slip if inside else self.slip / slip
+        below = (1 + x) * (1 + x) - 2 * x * (1 - self.stator)
+        most = 2 * self.torque * (1 + self.stator)
+        rise = (1 - x) * (1 + x) * (1.0 if inside else -x * x) / (below * below)
+        return most * x / below, -most / self.slip * rise / self.synchronous
+
+
+@dataclass(frozen=True, slots=True)
+class CurveStage:
+    """Torque over the speed of the motor shaft until the next stage: straight lines between knots (speed, torque) up to
+    the last of them, and beyond it the formula of Kloss; one of the two may be left out."""
+
+    knots: tuple[tuple[float, float], ...] = ()
+    extends: bool = False
+    """whether the first and the last line go on; else the end values hold outside"""
+    kloss: Kloss | None = None
+    until_speed: float = math.inf
+    until_time: float = math.inf
+
+    def at(self, speed: float) -> tuple[float, float]:
+        """Torque [N*m] and its slope over the speed [N*m*s/rad]."""
+        knots = self.knots
+        if not knots or (self.kloss is not None and speed > knots[-1][0]):
+            assert self.kloss is not None
+            return self.kloss.at(speed)
+        if len(knots) == 1:
+            return knots[0][1], 0.0
+        if not self.extends and not knots[0][0] <= speed <= knots[-1][0]:
+            return knots[0 if speed < knots[0][0] else -1][1], 0.0
+        index = 1
+        while index < len(knots) - 1 and speed > knots[index][0]:
+            index += 1
+        (left, low), (right, high) = knots[index - 1], knots[index]
+        rise = (high - low) / (right - left)
+        return low + rise * (speed - left), rise
+
+
+@dataclass(frozen=True, slots=True)
+class MotorForce:
+    """Force at the rim of the motors of a drive on their curve, and its slope over the rim speed, by time and speed.
+
+        F = drives M(w, t) (M > 0),   brakes M(w, t) (M < 0),   w = turns v
+
+    `drives` = n i eta/R and `brakes` = n i/(eta R) [1/m], `turns` [rad/m]. The motors are on from `delay` to `off`, and
+    again from `again` [s]. A frequency converter moves the curve along the speed by what its reference, which rises
+    to `reference` in the time `ramp`, is short of it.
+    """
+
+    stages: Sequence[CurveStage]
+    turns: float
+    drives: float
+    brakes: float
+    delay: float = 0.0
+    off: float = -math.inf
+    again: float = 0.0
+    reference: float = 0.0
+    ramp: float = 0.0
+
+    def __call__(self, time: float, speed: float) -> tuple[float, float]:
+        since = time - (self.delay if time < self.off else self.again)
+        if since < 0:
+            return 0.0, 0.0
+        turning = speed * self.turns
+        late = 0
+        while late < len(self.stages) - 1:
+            stage = self.stages[late]
+            if turning < stage.until_speed and since < stage.until_time:
+                break
+            late += 1
+        if self.ramp > 0:
+            turning += self.reference * (1 - min(since / self.ramp, 1.0))
+        torque, rise = self.stages[late].at(turning)
+        factor = self.drives if torque > 0 else self.brakes
+        return factor * torque, factor * rise * self.turns
