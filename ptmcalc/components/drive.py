@@ -1,7 +1,7 @@
 """The motors of a continuous drive, and the gear between them and the drive shaft."""
 
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -21,13 +21,14 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactl
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 
-class Motor(Fragment):
-    """The drive motors, one of several equal ones."""
+class MotorBase(Fragment):
+    """Starting torque and heat of the drive motors, one of several equal ones."""
+
+    CURVE_KEYS: ClassVar[tuple[str, ...]] = ("curve",)
+    """keys of which one is enough for a start: it gives the torque over the speed"""
 
     count: Annotated[int, Field(ge=1, le=64, strict=True), Absent("one motor, as the file describes one")] = 1
     """number of equal motors on the drive shaft"""
-    inertia: PositiveInertia
-    """rotor of one motor"""
     speed: Annotated[PositiveAngularSpeed | None, Limit()] = None
     """rated speed; compared with machine speed, ratio and pulley, drum or sprocket"""
     mean_starting_torque: Annotated[PositiveTorque | None, OneOf("curve, largest_starting_torque")] = None
@@ -54,7 +55,7 @@ class Motor(Fragment):
             )
         mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
         if largest not in given and smallest not in given:
-            if "curve" not in given:
+            if not any(key in given for key in cls.CURVE_KEYS):
                 yield from exactly_one(given, mean, largest)
         elif mean in given:
             for key in (largest, smallest):
@@ -78,8 +79,19 @@ class Motor(Fragment):
         if self.largest_starting_torque is not None and self.smallest_starting_torque is not None:
             return motor.mean_starting_torque(self.largest_starting_torque, self.smallest_starting_torque)
         assert self.curve is not None
-        top = self.speed or self.curve.no_load_speed or 1.0
-        return float(np.mean(self.curve.torque(np.linspace(0.0, top, 401), np.inf)))
+        return self.mean_of(self.curve)
+
+    def mean_of(self, curve: AnyMotor) -> float:
+        """Mean torque of a curve up to rated speed [N*m]."""
+        top = self.speed or curve.no_load_speed or 1.0
+        return float(np.mean(curve.torque(np.linspace(0.0, top, 401), np.inf)))
+
+
+class Motor(MotorBase):
+    """The drive motors, one of several equal ones."""
+
+    inertia: PositiveInertia
+    """rotor of one motor"""
 
 
 class Gear(Fragment):

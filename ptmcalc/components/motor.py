@@ -49,7 +49,8 @@ class Stage:
     formula: Curve | None = None
     slope: Curve | None = None
     kloss: Kloss | None = None
-    """numbers of `formula`"""
+    """numbers of `formula`, above the last of `knots` where there are any"""
+    knots: tuple[tuple[float, float], ...] = ()
     until_speed: float | None = None
     """the next stage begins when the speed rises to it"""
     until_time: float | None = None
@@ -102,7 +103,7 @@ class Motor(Fragment):
         """The same as numbers."""
         return tuple(
             CurveStage(
-                stage.pieces or (),
+                stage.pieces or stage.knots,
                 stage.extends,
                 stage.kloss,
                 math.inf if stage.until_speed is None else stage.until_speed,

@@ -4,9 +4,11 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
+from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.model import drive_of, filled
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start, Stopping
 from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene
@@ -64,7 +66,7 @@ def _sprocket(spec: ChainDrive) -> Interval:
     if spec.drive is None:
         return Interval(0.0, 0.0)
     motor = spec.drive.motor
-    return Interval(0.0, _ROTOR_SHARE * motor.count * motor.inertia * spec.drive.gear.ratio**2)
+    return Interval(0.0, _ROTOR_SHARE * motor.count * filled(motor.inertia) * spec.drive.gear.ratio**2)
 
 
 _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
@@ -123,10 +125,12 @@ _OF_TWO_SHAFTS: tuple[Assumption[ChainDrive], ...] = (
 def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
     """What is assumed of the chain, of where it runs, of its drive and of its wear."""
     yield from _OF_THE_CHAIN
+    if spec.drive is not None:
+        yield from of_the_plate(("drive", "motor"), spec.drive.motor, Use(scenes=frozenset({Start})))
     yield from _MOVED
     yield from _OF_A_CONVEYOR if isinstance(spec.layout, ConveyorLayout) else _OF_TWO_SHAFTS
     if spec.drive is not None:
-        rotor, ratio = spec.drive.motor.inertia, spec.drive.gear.ratio
+        ratio = spec.drive.gear.ratio
         yield Assumption(
             ("drive", "gear", "efficiency"),
             units.RATIO,
@@ -137,8 +141,8 @@ def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
         yield Assumption(
             ("drive", "coupling_inertia"),
             units.INERTIA,
-            lambda spec: 0.15 * rotor,
-            lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
+            lambda spec: 0.15 * filled(drive_of(spec).motor.inertia),
+            lambda spec: Interval(*(part * filled(drive_of(spec).motor.inertia) for part in (0.10, 0.25))),
             "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
         )
     if spec.wear is not None:

@@ -15,7 +15,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.laws import belt_modes, chain_selection, inertia, motor, sag, sprocket
 from ptmcalc.laws.loop_bounds import LoopMasses
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene
+from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Drive
 from ptmcalc.numerics.harmonic import parts
 
 FloatArray = NDArray[np.float64]
@@ -103,7 +103,7 @@ def motor_side_inertia(spec: ChainDrive) -> float:
     """Rotors and couplings of all motors on the motor shaft [kg*m^2]; 0 without a drive."""
     if spec.drive is None:
         return 0.0
-    return spec.drive.motor.count * (spec.drive.motor.inertia + filled(spec.drive.coupling_inertia))
+    return spec.drive.motor.count * (filled(spec.drive.motor.inertia) + filled(spec.drive.coupling_inertia))
 
 
 def drive_mass(spec: ChainDrive, flow: str) -> float:
@@ -445,3 +445,9 @@ def damping_ratios(kind: parts.Damping, frequencies: FloatArray) -> FloatArray:
     """Damping ratios of modes: half the loss factor at their frequencies [1]."""
     modulus = kind.modulus(np.asarray(frequencies, float))
     return np.asarray(modulus.imag / modulus.real / 2)
+
+
+def drive_of(spec: ChainDrive) -> Drive:
+    """The motors and the gear, without which the file has no start."""
+    assert spec.drive is not None, "a start without a drive is rejected when the file is read"
+    return spec.drive

@@ -7,7 +7,8 @@ from pydantic import Field
 
 from ptmcalc.base import units
 from ptmcalc.base.memory import kept_for
-from ptmcalc.components.drive import Gear, Motor
+from ptmcalc.components.drive import Gear
+from ptmcalc.components.plate_motor import PlateMotor, gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
 from ptmcalc.laws import chain_selection, sprocket
@@ -46,7 +47,7 @@ from ptmcalc.spec.shape import Also
 class Drive(Fragment):
     """Motors and gear on the shaft of the driving sprocket."""
 
-    motor: Motor
+    motor: PlateMotor
     """the motors"""
     coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
@@ -336,7 +337,7 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
 @kept_for(64)
 def _followed(spec: ChainDrive, scenes: tuple[ChainScene, ...]) -> tuple[ChainScene, ...]:
     """Scenes whose starts follow the curve of the motors, where the file gives one."""
-    curve = spec.drive is not None and spec.drive.motor.curve is not None
+    curve = spec.drive is not None and spec.drive.motor.starts_on_curve
     return tuple(
         one.model_copy(update={"profile": one.profile.followed(curve)}) if isinstance(one, Start) else one
         for one in scenes
@@ -346,4 +347,4 @@ def _followed(spec: ChainDrive, scenes: tuple[ChainScene, ...]) -> tuple[ChainSc
 def _has_curve(given: Given) -> bool:
     drive = given.raw.get("drive")
     motor = drive.get("motor") if isinstance(drive, dict) else None
-    return isinstance(motor, dict) and "curve" in motor
+    return isinstance(motor, dict) and gives_curve(motor)

@@ -7,10 +7,12 @@ from dataclasses import replace
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
 from ptmcalc.machines.conveyor.model import load_line_mass
+from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Start, Stop, Stopping
 from ptmcalc.numerics.lanes import value
 
@@ -217,8 +219,10 @@ def assumptions(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
 
 
 def _of_a_drive(path: KeyPath, drive: Drive) -> Iterator[Assumption[Conveyor]]:
-    rotor = drive.motor.inertia
-    on_drum = drive.motor.count * rotor * drive.gear.ratio**2
+    def rotor(spec: Conveyor) -> float:
+        return filled(spec.value_at((*path, "motor", "inertia")))
+
+    yield from of_the_plate((*path, "motor"), drive.motor, Use(scenes=frozenset({Start})))
     yield Assumption(
         (*path, "gear", "efficiency"),
         units.RATIO,
@@ -229,14 +233,14 @@ def _of_a_drive(path: KeyPath, drive: Drive) -> Iterator[Assumption[Conveyor]]:
     yield Assumption(
         (*path, "coupling_inertia"),
         units.INERTIA,
-        lambda spec: 0.15 * rotor,
-        lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
+        lambda spec: 0.15 * rotor(spec),
+        lambda spec: Interval(0.10 * rotor(spec), 0.25 * rotor(spec)),
         "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
     )
     yield Assumption(
         (*path, "drum", "inertia"),
         units.INERTIA,
         lambda spec: 0.0,
-        lambda spec: Interval(0.0, _ROUGH_DRUM_SHARE * on_drum),
+        lambda spec: Interval(0.0, _ROUGH_DRUM_SHARE * drive.motor.count * rotor(spec) * drive.gear.ratio**2),
         "neglected; a shell pulley seldom has more than 5 % of the motor inertia at the same shaft",
     )

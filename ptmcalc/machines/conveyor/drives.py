@@ -116,20 +116,20 @@ def along_curve(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorFo
 
     `creep` is the part by which the pulley is slower than the belt that comes to the drives of its place [1].
     """
-    motor, ratio = drive.motor, drive.gear.ratio
-    assert motor.curve is not None
+    curve, ratio = drive.motor.start_curve, drive.gear.ratio
+    assert curve is not None
     efficiency, turns = filled(drive.gear.efficiency), ratio / (drive.drum.diameter / 2)
     aborted = scene.aborted
     return MotorForce(
-        motor.curve.curve_stages,
+        curve.curve_stages,
         (1 - creep) * turns,
-        motor.count * turns * efficiency,
-        motor.count * turns / efficiency,
+        drive.motor.count * turns * efficiency,
+        drive.motor.count * turns / efficiency,
         delay=drive.delay,
         off=aborted.run if aborted else -math.inf,
         again=drive.delay + (aborted.run + aborted.pause if aborted else 0.0),
-        reference=motor.curve.speed if isinstance(motor.curve, ConverterMotor) else 0.0,
-        ramp=motor.curve.ramp_time if isinstance(motor.curve, ConverterMotor) else 0.0,
+        reference=curve.speed if isinstance(curve, ConverterMotor) else 0.0,
+        ramp=curve.ramp_time if isinstance(curve, ConverterMotor) else 0.0,
     )
 
 

@@ -23,5 +23,4 @@ def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
     """The key of the starting torque the file uses."""
     path = path or spec.main_path
     one = spec.value_at(path).motor
-    keys = ("mean_starting_torque", "largest_starting_torque", "curve")
-    return (*path, "motor", next(key for key in keys if getattr(one, key) is not None))
+    return (*path, "motor", one.starting_key)

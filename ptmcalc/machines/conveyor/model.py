@@ -295,7 +295,7 @@ def drive_mass(drive: Drive, driven: bool = False) -> float:
     rotor gives, M - J e. Before the brake is closed the rotor still drives: the belt is then braked by more than this
     says, by a part (1/eta - eta) J i^2/R^2 of the moving mass at most, and comes to rest the earlier.
     """
-    per_motor = drive.motor.inertia + filled(drive.coupling_inertia)
+    per_motor = filled(drive.motor.inertia) + filled(drive.coupling_inertia)
     efficiency = filled(drive.gear.efficiency)
     return inertia.reduced_drive_mass(
         drive.motor.count * per_motor,

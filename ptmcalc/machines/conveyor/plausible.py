@@ -72,8 +72,9 @@ def _of_a_drive(path: KeyPath, drive: PlacedDrive) -> Iterator[Finding]:
     )
     for one, value in ranges:
         yield from one.finding(value)
-    if motor.speed is not None and motor.inertia * motor.speed > _SLOWEST_MOTOR * motor.mean_torque:
-        time = units.show(motor.inertia * motor.speed / motor.mean_torque, units.TIME)
+    spin = (motor.inertia or 0.0) * (motor.speed or 0.0)
+    if spin > 0 and spin > _SLOWEST_MOTOR * motor.mean_torque:
+        time = units.show(spin / motor.mean_torque, units.TIME)
         reason = f"the motor requires {time} to accelerate its own rotor; usual motors require 0.05 s to 5 s"
         yield Finding("SPC201", reason, (*path, "motor", "inertia"), "check `inertia` and the starting torque")
 

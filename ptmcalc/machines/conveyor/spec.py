@@ -7,7 +7,8 @@ from pydantic import Field
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.drive import Gear, Motor
+from ptmcalc.components.drive import Gear
+from ptmcalc.components.plate_motor import PlateMotor, gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
 from ptmcalc.laws.sag import DEEPEST
@@ -54,7 +55,7 @@ class DriveDrum(Fragment):
 class Drive(Fragment):
     """Motors, gear and pulley at the head."""
 
-    motor: Motor
+    motor: PlateMotor
     """the motors"""
     coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
@@ -399,7 +400,7 @@ class Conveyor(MachineSpec):
 @kept_for(64)
 def _followed(spec: Conveyor, scenes: tuple[ConveyorScene, ...]) -> tuple[ConveyorScene, ...]:
     """Scenes whose starts follow the curves of the motors, where every motor has one."""
-    curves = all(drive.motor.curve is not None for drive in spec.all_drives.values())
+    curves = all(drive.motor.starts_on_curve for drive in spec.all_drives.values())
     return tuple(
         one.model_copy(update={"profile": one.profile.followed(curves)}) if isinstance(one, Start) else one
         for one in scenes
@@ -425,7 +426,7 @@ def _without_curves(given: Given) -> Iterator[Conflict]:
     several, one = given.raw.get("drives"), given.raw.get("drive")
     drives = list(several.values()) if isinstance(several, dict) else [one]
     motors = [drive.get("motor") for drive in drives if isinstance(drive, dict)]
-    if all(isinstance(motor, dict) and "curve" in motor for motor in motors):
+    if all(isinstance(motor, dict) and gives_curve(motor) for motor in motors):
         return
     for index, scene in enumerate(given.blocks("scenes")):
         profile = scene.raw.get("profile") if scene else None

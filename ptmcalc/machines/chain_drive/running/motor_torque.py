@@ -3,17 +3,18 @@
 from ptmcalc.components.steady_drive import Motors
 from ptmcalc.components.steady_drive_checks import SteadyMotors, steady_loads, steady_solver
 from ptmcalc.contract.result import Result
-from ptmcalc.machines.chain_drive.model import chain_line, filled, mean_arm
+from ptmcalc.machines.chain_drive.model import chain_line, drive_of, filled, mean_arm
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Run, Start
 
 
 def motors_of(spec: ChainDrive) -> dict[str, Motors]:
     """The motors of the drive, where the file gives their curve."""
     drive = spec.drive
-    if drive is None or drive.motor.curve is None:
+    curve = drive.motor.running_curve if drive is not None else None
+    if drive is None or curve is None:
         return {}
     turns = drive.gear.ratio / mean_arm(spec)
-    return {"": Motors(drive.motor.curve, drive.motor.count, turns, filled(drive.gear.efficiency))}
+    return {"": Motors(curve, drive.motor.count, turns, filled(drive.gear.efficiency))}
 
 
 def _resistance(spec: ChainDrive, scene: ChainScene) -> float:
@@ -39,7 +40,7 @@ MOTORS: SteadyMotors[ChainDrive, ChainScene] = SteadyMotors(
     pulled="chain",
     several=False,
     motors=motors_of,
-    curve_key=lambda spec, name: ("drive", "motor", "curve"),
+    curve_key=lambda spec, name: ("drive", "motor", drive_of(spec).motor.curve_key),
     resistance=_resistance,
     run=Run,
     start=Start,

@@ -9,22 +9,20 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import tension_key
+from ptmcalc.machines.chain_drive.model import drive_of, tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
-from ptmcalc.machines.chain_drive.starting.motion import drive_of, start_case
+from ptmcalc.machines.chain_drive.starting.motion import start_case
 
 Loads = Mapping[str, Estimate]
 
 
 def torque_key(spec: ChainDrive) -> KeyPath:
     """The key of the starting torque the file uses."""
-    motor = drive_of(spec).motor
-    keys = ("mean_starting_torque", "largest_starting_torque", "curve")
-    return ("drive", "motor", next(key for key in keys if getattr(motor, key) is not None))
+    return ("drive", "motor", drive_of(spec).motor.starting_key)
 
 
 def _torque_repair(spec: ChainDrive, scene: Start) -> KeyPath:
-    return number_at(torque_key(spec), drive_of(spec).motor.curve)
+    return number_at(torque_key(spec), drive_of(spec).motor.start_curve)
 
 
 def _profile_key(spec: ChainDrive, scene: Start) -> KeyPath:
@@ -37,7 +35,7 @@ def _profile_key(spec: ChainDrive, scene: Start) -> KeyPath:
 
 def _profile_repair(spec: ChainDrive, scene: Start) -> KeyPath:
     key = _profile_key(spec, scene)
-    return () if key[-1] == "points" else number_at(key, drive_of(spec).motor.curve)
+    return () if key[-1] == "points" else number_at(key, drive_of(spec).motor.start_curve)
 
 
 # -- strong enough --------------------------------------------------------------------------------------------------

@@ -19,12 +19,13 @@ from ptmcalc.machines.chain_drive.model import (
     chain_line,
     damping,
     damping_ratios,
+    drive_of,
     filled,
     mean_arm,
     motor_side_inertia,
     sprocket_inertia,
 )
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Drive, Start
+from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
 from ptmcalc.numerics.mode_sum import Course
 
 _LIGHT = 1e-12
@@ -40,12 +41,6 @@ UP_TO = 0.9
 torque curve falls to the resistance. A larger value reports stalls of drives that reach their speed."""
 _CURVE = 2000
 """Speed steps along a torque curve. A numerical choice: more reduce the error of time and travel and take longer."""
-
-
-def drive_of(spec: ChainDrive) -> Drive:
-    """The motors and the gear, without which the file has no start."""
-    assert spec.drive is not None, "a start without a drive is rejected when the file is read"
-    return spec.drive
 
 
 def start_factor(spec: ChainDrive) -> float:
@@ -339,7 +334,7 @@ def curve_start(spec: ChainDrive, scene: Start) -> tuple[float, float]:
     t = integral of dv/a(v),   up to nine tenths of the speed where the motors do not exceed the resistance of a start
     beyond it, and infinite where they do not even there
     """
-    curve, gear = drive_of(spec).motor.curve, drive_of(spec).gear
+    curve, gear = drive_of(spec).motor.start_curve, drive_of(spec).gear
     assert curve is not None
     line, count = chain_line(spec, scene, start_factor(spec)), drive_of(spec).motor.count
     speeds = np.linspace(0.0, line.speed, _CURVE + 1)

@@ -9,14 +9,13 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_start, inertia, wave
-from ptmcalc.machines.chain_drive.model import filled, mean_arm, motor_side_inertia, radius, sprocket_inertia
+from ptmcalc.machines.chain_drive.model import drive_of, filled, mean_arm, motor_side_inertia, radius, sprocket_inertia
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, rigid_tensions
 from ptmcalc.machines.chain_drive.starting.motion import (
     UP_TO,
     StartCase,
     curve_start,
-    drive_of,
     motor_torque,
     speed_over_time,
     start_case,
@@ -76,7 +75,7 @@ def _of_the_drive(spec: ChainDrive, case: StartCase) -> dict[str, float]:
 def least_force(spec: ChainDrive, case: StartCase) -> float:
     """Force of the drive that must move the chain [N]: the mean one, or the smallest on the curve of the motors up to
     nine tenths of the rated speed."""
-    curve, gear = drive_of(spec).motor.curve, drive_of(spec).gear
+    curve, gear = drive_of(spec).motor.start_curve, drive_of(spec).gear
     if not case.follows_curve or curve is None:
         return case.available
     speeds = np.linspace(0.0, UP_TO * case.line.speed, _SPEEDS) / mean_arm(spec) * gear.ratio

@@ -14,9 +14,9 @@ import numpy as np
 from ptmcalc.laws import loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import ChainLine, chain_line, filled, mean_arm, motor_side_inertia
+from ptmcalc.machines.chain_drive.model import ChainLine, chain_line, drive_of, filled, mean_arm, motor_side_inertia
 from ptmcalc.machines.chain_drive.spec import Brake, ChainDrive, ChainScene, Coast, EmergencyStop, Stop, Stopping
-from ptmcalc.machines.chain_drive.starting.motion import drive_of, light_return, sprocket_mass
+from ptmcalc.machines.chain_drive.starting.motion import light_return, sprocket_mass
 from ptmcalc.numerics.mode_sum import Course
 
 _SECTIONS = 65

@@ -30,7 +30,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
 def _curve_key(spec: Conveyor, name: str) -> KeyPath:
     path = spec.drive_path(name) if name else spec.main_path
-    return (*path, "motor", "curve")
+    return (*path, "motor", spec.value_at(path).motor.curve_key)
 
 
 MOTORS: SteadyMotors[Conveyor, ConveyorScene] = SteadyMotors(

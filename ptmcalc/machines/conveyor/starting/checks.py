@@ -48,7 +48,7 @@ def _heat_checks(spec: Conveyor, scene: Start) -> Checks:
             continue
         path = spec.drive_path(name)
         key = starting_torque_key(spec, path)
-        needs = () if drive.motor.curve is not None else ((*path, "motor", "no_load_speed"),)
+        needs = () if drive.motor.running_curve is not None else ((*path, "motor", "no_load_speed"),)
         yield MOTOR_HEAT.of(name, _exactly(most), key, needs, () if key[-1] == "curve" else key)
 
 

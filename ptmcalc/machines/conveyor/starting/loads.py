@@ -7,7 +7,7 @@ import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.components.drive import Motor
+from ptmcalc.components.plate_motor import PlateMotor
 from ptmcalc.contract.result import Found, LoadInfo, of
 from ptmcalc.laws import loop_bounds, sag, slip_heat, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -78,19 +78,20 @@ def _residual(case: StartCase, frequency: float) -> float:
 # -- heat of the motors ---------------------------------------------------------------------------------------------
 
 
-def no_load_speed(motor: Motor) -> float | None:
+def no_load_speed(motor: PlateMotor) -> float | None:
     """Speed of a motor without load, as far as the file gives it [rad/s]."""
     if motor.no_load_speed is not None:
         return motor.no_load_speed
-    return motor.curve.no_load_speed if motor.curve is not None else None
+    curve = motor.running_curve
+    return curve.no_load_speed if curve is not None else None
 
 
-def heated(motor: Motor) -> bool:
+def heated(motor: PlateMotor) -> bool:
     """Whether the heat of a motor's rotor can be told."""
     return motor.start_heat is not None and no_load_speed(motor) is not None
 
 
-def _motors(spec: Conveyor) -> list[Motor]:
+def _motors(spec: Conveyor) -> list[PlateMotor]:
     return [drive.motor for drive in spec.all_drives.values()]
 
 

@@ -115,7 +115,7 @@ def _geared(spec: Conveyor, scene: ConveyorScene) -> list[_Geared]:
     for name, drive in spec.all_drives.items():
         efficiency = filled(drive.gear.efficiency)
         on_motor = brakes_on_motors(spec, scene, name)
-        rotor = drive.motor.count * (drive.motor.inertia + filled(drive.coupling_inertia))
+        rotor = drive.motor.count * (filled(drive.motor.inertia) + filled(drive.coupling_inertia))
         at_surface = rotor * (drive.gear.ratio * 2 / drive.drum.diameter) ** 2
         found.append(_Geared(at_surface, efficiency, tuple(on_motor), bool(on_motor)))
     return found
