@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.starting_gear import SoftStarter, StarDelta, in_star
 from ptmcalc.laws import start_profile
 from ptmcalc.machines.conveyor.load_sharing import steady_forces
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_line_filled, drive_force
@@ -116,12 +117,15 @@ def along_curve(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorFo
 
     `creep` is the part by which the pulley is slower than the belt that comes to the drives of its place [1].
     """
-    curve, ratio = drive.motor.start_curve, drive.gear.ratio
+    curve, ratio, starter, coupling = drive.start_curve, drive.gear.ratio, drive.starter, drive.fluid_coupling
     assert curve is not None
+    stages = curve.curve_stages
+    if isinstance(starter, StarDelta):
+        stages = in_star(stages, starter.switch_over * filled(curve.no_load_speed))
     efficiency, turns = filled(drive.gear.efficiency), ratio / (drive.drum.diameter / 2)
     aborted = scene.aborted
     return MotorForce(
-        curve.curve_stages,
+        stages,
         (1 - creep) * turns,
         drive.motor.count * turns * efficiency,
         drive.motor.count * turns / efficiency,
@@ -130,13 +134,20 @@ def along_curve(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorFo
         again=drive.delay + (aborted.run + aborted.pause if aborted else 0.0),
         reference=curve.speed if isinstance(curve, ConverterMotor) else 0.0,
         ramp=curve.ramp_time if isinstance(curve, ConverterMotor) else 0.0,
+        fill=coupling.time_constant if coupling is not None else 0.0,
+        soft_from=starter.initial_voltage if isinstance(starter, SoftStarter) else 1.0,
+        soft_time=starter.time if isinstance(starter, SoftStarter) else 0.0,
     )
 
 
 def least_pull(spec: Conveyor, scene: Start) -> float:
     """Least force of all drives together on the way up to nine tenths of rated speed [N]."""
     curves = [along_curve(scene, drive) for drive in spec.all_drives.values()]
-    speeds = np.linspace(0.0, _LEAST_UP_TO * spec.speed, 181)
+    top = _LEAST_UP_TO * spec.speed
+    speeds = [
+        *np.linspace(0.0, top, 181).tolist(),
+        *(speed for curve in curves for speed in curve.marks if speed < top),
+    ]
     return min(sum(curve(_LATE_STAGE, float(speed))[0] for curve in curves) for speed in speeds)
 
 

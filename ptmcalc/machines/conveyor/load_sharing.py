@@ -32,7 +32,7 @@ def motors_of(spec: Conveyor) -> dict[str, Motors]:
             efficiency=filled(drive.gear.efficiency),
         )
         for name, drive in drives.items()
-        if (curve := drive.motor.running_curve) is not None
+        if (curve := drive.running_curve) is not None
     }
     return found if len(found) == len(drives) else {}
 
@@ -53,7 +53,7 @@ def sharing_is_known(spec: Conveyor) -> bool:
     drives = list(spec.all_drives.values())
     if len(drives) == 1 or motors_of(spec):
         return True
-    if any(drive.motor.running_curve is not None for drive in drives):
+    if any(drive.running_curve is not None for drive in drives):
         return False
     speeds = [_pulley_speed(drive, all(one.motor.speed is not None for one in drives)) for drive in drives]
     return max(speeds) <= (1 + _SAME_SPEED) * min(speeds)

@@ -174,7 +174,6 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
     given = spec.resistance
     loads = [load_line_mass(spec) if full else 0.0 for full in filling]
     extra, drum = extra_forces(spec, load_line_mass(spec)), spec.main_drive.drum
-    shafts = braked_shafts(spec, scene)
     return BeltLine(
         gravity=spec.gravity,
         speed=spec.speed,
@@ -183,7 +182,7 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
         carry=_strand(spec, scene, loads, extra, carries=True),
         back=_strand(spec, scene, loads, extra, carries=False),
         tail_force=(given.secondary_force or 0.0) + extra.at_tail(filling[0]),
-        drive_mass=sum(drive_mass(drive, driven=name in shafts) for name, drive in spec.all_drives.items()),
+        drive_mass=sum(drive_masses(spec, scene).values()),
         tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
         fixed_length=spec.takeup.type == "rigid",
         takeup_tension=spec.takeup.tension,
@@ -286,7 +285,14 @@ def breaking_force(spec: Conveyor) -> float | None:
     return belt.breaking_force
 
 
-def drive_mass(drive: Drive, driven: bool = False) -> float:
+def drive_masses(spec: Conveyor, scene: ConveyorScene) -> dict[str, float]:
+    """Motors, couplings and drum of each drive reduced to the rim in a scene [kg]."""
+    shafts, starts = braked_shafts(spec, scene), isinstance(scene, Start)
+    drives = spec.all_drives.items()
+    return {name: drive_mass(drive, driven=name in shafts, starts=starts) for name, drive in drives}
+
+
+def drive_mass(drive: Drive, driven: bool = False, *, starts: bool = False) -> float:
     """Motors, couplings and drum of a drive reduced to the rim [kg].
 
         m = J i^2 eta/R^2 + ...   where the motor drives        J i^2/(eta R^2) + ...   where the belt drives it
@@ -294,8 +300,12 @@ def drive_mass(drive: Drive, driven: bool = False) -> float:
     With a brake on its shaft the motor is `driven`: the torque through the gear is what the brake takes less what the
     rotor gives, M - J e. Before the brake is closed the rotor still drives: the belt is then braked by more than this
     says, by a part (1/eta - eta) J i^2/R^2 of the moving mass at most, and comes to rest the earlier.
+
+    In a start a fluid coupling accelerates only what is behind it: its turbine wheel, which is the coupling inertia of
+    the file. In other scenes the rotor counts too.
     """
-    per_motor = filled(drive.motor.inertia) + filled(drive.coupling_inertia)
+    rotor = 0.0 if starts and drive.fluid_coupling is not None else filled(drive.motor.inertia)
+    per_motor = rotor + filled(drive.coupling_inertia)
     efficiency = filled(drive.gear.efficiency)
     return inertia.reduced_drive_mass(
         drive.motor.count * per_motor,
@@ -309,7 +319,7 @@ def drive_mass(drive: Drive, driven: bool = False) -> float:
 @kept_for(64)
 def drive_force(drive: Drive) -> float:
     """Mean starting force of all motors of a drive at the rim [N]."""
-    torque = drive.motor.mean_torque
+    torque = drive.mean_torque
     count, ratio = drive.motor.count, drive.gear.ratio
     return motor.rim_force(count * torque, ratio, filled(drive.gear.efficiency), drive.drum.diameter / 2)
 

@@ -8,9 +8,11 @@ from pydantic import Field
 from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.drive import Gear
+from ptmcalc.components.motor import AnyMotor
 from ptmcalc.components.plate_motor import PlateMotor, gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
+from ptmcalc.components.starting_gear import AnyStarter, FluidCoupling
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
@@ -63,6 +65,49 @@ class Drive(Fragment):
     """the gear"""
     drum: Annotated[DriveDrum, Also("pulley")]
     """the drive pulley"""
+    starter: AnyStarter | None = None
+    """starter of a cage motor: `star_delta` or `soft`; switched on directly when left out"""
+    fluid_coupling: FluidCoupling | None = None
+    """fluid coupling between each motor and the gear"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Starter and fluid coupling belong to a cage motor."""
+        yield from super().conflicts(given)
+        motor = given.raw.get("motor")
+        if not isinstance(motor, dict) or "power" in motor:
+            return
+        curve = motor.get("curve")
+        if isinstance(curve, dict) and curve.get("type") == "induction":
+            return
+        for key in ("starter", "fluid_coupling"):
+            if key in given:
+                reason = "it requires the curve of a cage motor"
+                yield Conflict((key,), reason, "add `power: 90 kW` and `poles: 4` to `motor`")
+
+    @property
+    def running_curve(self) -> AnyMotor | None:
+        """Torque on the input shaft of the gear in steady running, of one motor: that of the coupling, if there is
+        one."""
+        curve = self.motor.running_curve
+        return curve if curve is None or self.fluid_coupling is None else self.fluid_coupling.behind(curve)
+
+    @property
+    def start_curve(self) -> AnyMotor | None:
+        """The same in starts that follow a curve."""
+        return self.running_curve if self.starts_on_curve else None
+
+    @property
+    def starts_on_curve(self) -> bool:
+        """Whether starts follow a curve."""
+        return self.motor.starts_on_curve
+
+    @property
+    def mean_torque(self) -> float:
+        """Mean starting torque of one motor, on the input shaft of the gear [N*m]."""
+        if self.fluid_coupling is not None and (curve := self.start_curve) is not None:
+            return self.motor.mean_of(curve)
+        return self.motor.mean_torque
 
 
 class PlacedDrive(Drive):
@@ -400,7 +445,7 @@ class Conveyor(MachineSpec):
 @kept_for(64)
 def _followed(spec: Conveyor, scenes: tuple[ConveyorScene, ...]) -> tuple[ConveyorScene, ...]:
     """Scenes whose starts follow the curves of the motors, where every motor has one."""
-    curves = all(drive.motor.starts_on_curve for drive in spec.all_drives.values())
+    curves = all(drive.starts_on_curve for drive in spec.all_drives.values())
     return tuple(
         one.model_copy(update={"profile": one.profile.followed(curves)}) if isinstance(one, Start) else one
         for one in scenes

@@ -16,9 +16,9 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.brakes import braked_shafts, brakes_of, braking
+from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
-from ptmcalc.machines.conveyor.model import FloatArray, Strand, drive_force, drive_mass
+from ptmcalc.machines.conveyor.model import FloatArray, Strand, drive_force, drive_masses
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
 from ptmcalc.machines.conveyor.waves.network import CELLS
@@ -172,7 +172,7 @@ def _rollers(case: Moving, carried: frozenset[str], at: str, pulled: float) -> t
     together = _sum(brakes)
     if not drives:
         return (Roller(line.tail_mass, hold=together),)
-    shafts = braked_shafts(spec, case.scene)
+    masses = drive_masses(spec, case.scene)
     pulls = [_pull(case, name) for name, _ in drives]
     loose: list[bool] = [] if isinstance(case.scene, Start) and case.imposed is None else [True]
 
@@ -184,7 +184,7 @@ def _rollers(case: Moving, carried: frozenset[str], at: str, pulled: float) -> t
 
     found = []
     for index, (name, drive) in enumerate(drives):
-        mass = drive_mass(drive, driven=name in shafts) + (line.tail_mass if at == "tail" and index == 0 else 0.0)
+        mass = masses[name] + (line.tail_mass if at == "tail" and index == 0 else 0.0)
         grip = drive.drum.friction * drive.drum.wrap if drive.drum.friction is not None else None
         slips = "slip" in carried and grip is not None and grip < 700
         hold = _sum([held, *brakes]) if index == len(drives) - 1 else held

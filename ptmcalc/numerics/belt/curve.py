@@ -4,6 +4,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+_BELOW = 1 - 1e-9
+"""Speed at the end of a stage relative to that at which the next one begins [1]; a numerical choice near 1."""
+
 
 @dataclass(frozen=True, slots=True)
 class Kloss:
@@ -66,7 +69,9 @@ class MotorForce:
 
     `drives` = n i eta/R and `brakes` = n i/(eta R) [1/m], `turns` [rad/m]. The motors are on from `delay` to `off`, and
     again from `again` [s]. A frequency converter moves the curve along the speed by what its reference, which rises
-    to `reference` in the time `ramp`, is short of it.
+    to `reference` in the time `ramp`, is short of it. A fluid coupling that fills with the time constant `fill` passes
+    on 1 - exp(-t/fill) of the torque. A soft starter raises the voltage from `soft_from` of the rated one in the time
+    `soft_time`, and the torque with its square.
     """
 
     stages: Sequence[CurveStage]
@@ -78,6 +83,9 @@ class MotorForce:
     again: float = 0.0
     reference: float = 0.0
     ramp: float = 0.0
+    fill: float = 0.0
+    soft_from: float = 1.0
+    soft_time: float = 0.0
 
     def __call__(self, time: float, speed: float) -> tuple[float, float]:
         since = time - (self.delay if time < self.off else self.again)
@@ -93,5 +101,20 @@ class MotorForce:
         if self.ramp > 0:
             turning += self.reference * (1 - min(since / self.ramp, 1.0))
         torque, rise = self.stages[late].at(turning)
-        factor = self.drives if torque > 0 else self.brakes
+        factor = (self.drives if torque > 0 else self.brakes) * self._rises(since)
         return factor * torque, factor * rise * self.turns
+
+    @property
+    def marks(self) -> list[float]:
+        """Speeds of the rim at which lines of the curve meet or a stage ends, and just below those [m/s]."""
+        at = [speed for stage in self.stages for speed in (*(knot for knot, _ in stage.knots), stage.until_speed)]
+        return [
+            mark for speed in at if 0 < speed < math.inf for mark in (speed / self.turns, speed / self.turns * _BELOW)
+        ]
+
+    def _rises(self, since: float) -> float:
+        """Part of the torque that acts so long after switching on [1]."""
+        part = -math.expm1(-since / self.fill) if self.fill > 0 else 1.0
+        if self.soft_time > 0:
+            part *= (self.soft_from + (1 - self.soft_from) * min(since / self.soft_time, 1.0)) ** 2
+        return part

@@ -54,7 +54,11 @@ class Stage(ctypes.Structure):
 class Curve(ctypes.Structure):
     """Motors on their curve."""
 
-    _fields_ = _members(array="stages", whole="count", real="turns drives brakes delay off again reference ramp")
+    _fields_ = _members(
+        array="stages",
+        whole="count",
+        real="turns drives brakes delay off again reference ramp fill soft_from soft_time",
+    )
 
 
 class Law(ctypes.Structure):
@@ -271,9 +275,8 @@ class Laws:
                 made.stator, made.synchronous = stage.kloss.stator, stage.kloss.synchronous
             made.until_speed, made.until_time = stage.until_speed, stage.until_time
             self._alive += [speeds, torques]
-        times = given.delay, given.off, given.again
-        curve = Curve(address_of(stages), len(stages), given.turns, given.drives, given.brakes, *times,
-                      given.reference, given.ramp)  # fmt: skip
+        numbers = [getattr(given, name) for name, kind in Curve._fields_ if kind is _REAL]
+        curve = Curve(address_of(stages), len(stages), *numbers)
         self._alive += [stages, curve]
         return Law(curve=address_of(curve))
 

@@ -52,7 +52,7 @@ typedef struct {
 typedef struct {
     const Stage *stages;
     int64_t count;
-    double turns, drives, brakes, delay, off, again, reference, ramp;
+    double turns, drives, brakes, delay, off, again, reference, ramp, fill, soft_from, soft_time;
 } Curve;
 
 /* A force [N] at the rim by time and speed, or another value by time: nothing, samples on a grid of time with ramps of
@@ -255,6 +255,12 @@ static double on_curve(const Curve *curve, double time, double speed, double *sl
     if (curve->ramp > 0)
         turning += curve->reference * (1 - least(since / curve->ramp, 1.0));
     double torque = torque_of(stage, turning, slope), factor = torque > 0 ? curve->drives : curve->brakes;
+    if (curve->fill > 0)
+        factor *= -expm1(-since / curve->fill);
+    if (curve->soft_time > 0) {
+        double voltage = curve->soft_from + (1 - curve->soft_from) * least(since / curve->soft_time, 1.0);
+        factor *= voltage * voltage;
+    }
     *slope *= factor * curve->turns;
     return factor * torque;
 }

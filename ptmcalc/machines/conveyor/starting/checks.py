@@ -40,11 +40,52 @@ def _heat_limit(spec: Conveyor, scene: Start) -> Estimate:
     return Estimate.exact(spec.main_drive.motor.start_heat or math.inf)
 
 
+def _coupling_heat_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """Permissible heat of a fluid coupling per start.
+
+    **Range** a start from the thermal state of the manufacturer's value.
+    **Error** that of the manufacturer's value.
+    **Source** the data sheet of the coupling.
+    """
+    heats = [one.fluid_coupling.start_heat for one in spec.all_drives.values() if one.fluid_coupling is not None]
+    return Estimate.exact(next((heat for heat in heats if heat is not None), math.inf))
+
+
+def _coupling_checks(spec: Conveyor, scene: Start) -> Checks:
+    """One for each drive whose fluid coupling says what it bears, in a start by its own torque."""
+    for name, drive in spec.all_drives.items() if not scene.profile.imposes_speed else ():
+        coupling = drive.fluid_coupling
+        if coupling is not None and coupling.start_heat is not None:
+            path = (*spec.drive_path(name), "fluid_coupling")
+            key = (*path, "torque_limit")
+            yield COUPLING_HEAT.of(name, _exactly(coupling.start_heat), key, (), key)
+
+
+COUPLING_HEAT: Check[Conveyor, Start] = Check(
+    code="CNV123",
+    title="fluid coupling heat per start",
+    question="Is the heat of the fluid coupling in a start within the data-sheet value?",
+    failure="heat of the start exceeds the data-sheet value of the coupling",
+    scenes=frozenset({Start}),
+    loads=("coupling_start_heat",),
+    sense=Sense.AT_MOST,
+    limit=_coupling_heat_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: starting_torque_key(spec),
+    repair=no_repair,
+    each=_coupling_checks,
+    what="The heat of each fluid coupling in a start is at most the manufacturer's value.",
+    why="A coupling that slips too long melts its fusible plug and loses its oil: the belt stands still.",
+    formula="integral of M (w_0 - w) dt <= allowed",
+    source="power into the coupling less that of its turbine wheel; the coupling's data sheet",
+)
+
+
 def _heat_checks(spec: Conveyor, scene: Start) -> Checks:
-    """One for each drive whose motors say what they bear, in a start on the mains."""
+    """One for each drive without a fluid coupling whose motors say what they bear, in a start on the mains."""
     for name, drive in spec.all_drives.items() if not scene.profile.imposes_speed else ():
         most = drive.motor.start_heat
-        if most is None:
+        if most is None or drive.fluid_coupling is not None:
             continue
         path = spec.drive_path(name)
         key = starting_torque_key(spec, path)

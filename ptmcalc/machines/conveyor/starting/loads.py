@@ -15,12 +15,13 @@ from ptmcalc.machines.conveyor.drives import moving_mass
 from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.motion import Moving, moving
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Start
+from ptmcalc.machines.conveyor.spec import Conveyor, Drive, PlacedDrive, Start
 from ptmcalc.machines.conveyor.start_case import StartCase, lowest_frequency, natural_frequencies, start_case
 from ptmcalc.machines.conveyor.waves import start_enclosure
 
 START_LOADS = (
     LoadInfo("motor_start_heat", "rotor heat per start, one motor", units.ENERGY, headline=False),
+    LoadInfo("coupling_start_heat", "fluid coupling heat per start, one coupling", units.ENERGY, headline=False),
     LoadInfo("resonance_distance", "drive ripple separation from belt modes", units.SHARE, headline=False),
     LoadInfo("start_residual", "residual first-mode oscillation (step = 1)", units.RATIO, headline=False),
 )
@@ -40,6 +41,8 @@ def start_parts(spec: Conveyor) -> Iterator[LoadInfo]:
     for info in START_LOADS:
         if info.name == "motor_start_heat":
             yield from (info.of(name) for name in spec.all_drives)
+        elif info.name == "coupling_start_heat":
+            yield from (info.of(name) for name, drive in spec.all_drives.items() if drive.fluid_coupling is not None)
         else:
             yield info
 
@@ -55,7 +58,7 @@ def start_loads(spec: Conveyor, scene: Start, case: StartCase) -> dict[str, Foun
             found["resonance_distance"] = float(np.min(np.abs(scene.profile.ripple / turns - 1)))
         if left:
             found["start_residual"] = _residual(case, frequencies[0])
-    heats = _heats(spec, scene, case) if any(map(heated, _motors(spec))) else {}
+    heats = _heats(spec, scene, case) if any(map(heated, spec.all_drives.values())) else {}
     return {name: Found(Estimate.exact(value)) for name, value in found.items()} | heats
 
 
@@ -86,24 +89,26 @@ def no_load_speed(motor: PlateMotor) -> float | None:
     return curve.no_load_speed if curve is not None else None
 
 
-def heated(motor: PlateMotor) -> bool:
-    """Whether the heat of a motor's rotor can be told."""
-    return motor.start_heat is not None and no_load_speed(motor) is not None
-
-
-def _motors(spec: Conveyor) -> list[PlateMotor]:
-    return [drive.motor for drive in spec.all_drives.values()]
+def heated(drive: Drive) -> str:
+    """The load of the heat of a drive in a start, of its rotor or its fluid coupling; empty where it is unknown."""
+    coupling = drive.fluid_coupling
+    allowed = drive.motor.start_heat if coupling is None else coupling.start_heat
+    if allowed is None or no_load_speed(drive.motor) is None:
+        return ""
+    return "motor_start_heat" if coupling is None else "coupling_start_heat"
 
 
 def _heats(spec: Conveyor, scene: Start, case: StartCase) -> dict[str, Found]:
-    """Heat of one rotor of each drive, from switching on to rated speed, with the bar of the belt's stretch.
+    """Heat of one rotor or fluid coupling of each drive, from switching on to rated speed, with the bar of the belt's
+    stretch.
 
         Q = integral of M (w_0 - w) dt
 
     By the rigid conveyor, less what the drum runs ahead of the mean of all that moves: under a step of torque by
     nothing to twice the quasi-static lead, since every mode swings between 0 and twice its share.
 
-    **Range** a motor on the mains, its rotor's resistance constant; not one that an inverter leads.
+    **Range** a motor on the mains, its rotor's resistance constant; not one that an inverter leads. A fluid coupling
+    behind a motor that has run up takes the heat of both.
     **Error** the bar of the lead, which holds for one drive and a torque that does not depend on the speed, and is an
     estimate elsewhere; the losses of gear and stator are not in it.
     **Source** power of the air gap less that of the shaft; `laws.slip_heat.slip_heat` with torques.
@@ -115,16 +120,17 @@ def _heats(spec: Conveyor, scene: Start, case: StartCase) -> dict[str, Found]:
     starts = case.moves and motion.rigid_time > 0
     for name, drive in spec.all_drives.items():
         fast = no_load_speed(drive.motor)
-        if not heated(drive.motor) or fast is None:
+        load = heated(drive)
+        if not load or fast is None:
             continue
         if not starts:
-            found[of("motor_start_heat", name)] = Found(Estimate.exact(math.inf))
+            found[of(load, name)] = Found(Estimate.exact(math.inf))
             continue
         turns = drive.gear.ratio * 2 / drive.drum.diameter
         times, torque, speed = _rigid(motion, name, drive)
         heat = slip_heat.slip_heat(times, torque, np.full_like(times, fast), np.minimum(speed * turns, fast))
         lead = float(np.abs(torque).max()) * turns * _lead(case)
-        found[of("motor_start_heat", name)] = Found(Estimate(heat - lead, heat - 2 * lead, heat, model=lead))
+        found[of(load, name)] = Found(Estimate(heat - lead, heat - 2 * lead, heat, model=lead))
     return found
 
 

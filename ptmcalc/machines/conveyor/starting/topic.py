@@ -5,7 +5,7 @@ from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
 from ptmcalc.machines.conveyor.loads import parts_of
 from ptmcalc.machines.conveyor.spec import Conveyor
-from ptmcalc.machines.conveyor.starting.checks import MOTOR_HEAT, RESIDUAL, RESONANCE, SHARP, START
+from ptmcalc.machines.conveyor.starting.checks import COUPLING_HEAT, MOTOR_HEAT, RESIDUAL, RESONANCE, SHARP, START
 from ptmcalc.machines.conveyor.starting.loads import START_LOADS, start_parts
 from ptmcalc.machines.conveyor.starting.rigid import RIGID
 
@@ -30,5 +30,5 @@ STARTING: Topic[Conveyor] = Topic(
     loads=(*LOADS, *START_LOADS),
     parts=lambda spec: (*parts_of(LOADS, spec), *start_parts(spec)),
     solvers=(RIGID,),
-    checks=(START, MOTOR_HEAT, SHARP, RESIDUAL, RESONANCE),
+    checks=(START, MOTOR_HEAT, COUPLING_HEAT, SHARP, RESIDUAL, RESONANCE),
 )

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ptmcalc.machines.conveyor.brakes import Braking, braked_shafts, brakes_of, braking
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_force, drive_mass
+from ptmcalc.machines.conveyor.brakes import Braking, brakes_of, braking
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_force, drive_masses
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Jam, Start
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
@@ -166,11 +166,11 @@ def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pu
     together = sum(forces.values(), np.zeros_like(times))
     held = np.where(together < pulled, _FAST, 0.0) if isinstance(case.scene, Start) else np.zeros_like(times)
     held[np.argmax(held == 0) :] = 0.0  # once loose they stay loose
-    step, shafts = float(times[1]), braked_shafts(spec, case.scene)
+    step, masses = float(times[1]), drive_masses(spec, case.scene)
     drums = []
     for index, (name, drive) in enumerate(drives):
         last = index == len(drives) - 1
-        mass = drive_mass(drive, driven=name in shafts) + (line.tail_mass if at == "tail" and index == 0 else 0.0)
+        mass = masses[name] + (line.tail_mass if at == "tail" and index == 0 else 0.0)
         exponent = drive.drum.friction * drive.drum.wrap if drive.drum.friction is not None else None
         drums.append(
             Drum(
