@@ -68,7 +68,7 @@ def _examples() -> Iterator[tuple[str, Example]]:
     swinging = "tests/stability/specs/travelling_brake_beside_a_heavy_load.yaml"
     yield "NUM110", Example(f"ptmcalc check {swinging}", "warning NUM110")
     yield "NUM111", Example(_CHECK, "", train)
-    yield "NUM112", Example("ptmcalc check tests/edges/conveyor/two-curves.yaml --format table", "note NUM112")
+    yield "NUM112", Example("ptmcalc check tests/edges/conveyor/unequal-drives.yaml --format table", "note NUM112")
     yield "NUM113", Example("ptmcalc check tests/edges/hoist/limiter.yaml --format table", "note NUM113")
     yield (
         "SPC204",

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,6 @@ from pydantic_core import PydanticCustomError
 
 from ptmcalc.base import units
 from ptmcalc.laws import motor
-from ptmcalc.numerics.belt.curve import CurveStage, Kloss
 from ptmcalc.spec.fields import (
     Measure,
     PositiveAngularSpeed,
@@ -27,6 +26,9 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 from ptmcalc.spec.optional import Limit, OneOf, Setting
+
+if TYPE_CHECKING:
+    from ptmcalc.numerics.belt.curve import CurveStage
 
 FloatArray = NDArray[np.float64]
 Curve = Callable[[FloatArray], FloatArray]
@@ -48,8 +50,8 @@ class Stage:
     """whether the first and the last piece go on as straight lines; else the end values hold outside"""
     formula: Curve | None = None
     slope: Curve | None = None
-    kloss: Kloss | None = None
-    """numbers of `formula`, above the last of `knots` where there are any"""
+    kloss: tuple[float, float, float, float] | None = None
+    """numbers of `formula`, above the last of `knots` where there are any: those of `numerics.belt.curve.Kloss`"""
     knots: tuple[tuple[float, float], ...] = ()
     until_speed: float | None = None
     """the next stage begins when the speed rises to it"""
@@ -99,13 +101,15 @@ class Motor(Fragment):
         raise TypeError(f"{type(self).__name__} defines no stages")
 
     @property
-    def curve_stages(self) -> tuple[CurveStage, ...]:
+    def curve_stages(self) -> "tuple[CurveStage, ...]":
         """The same as numbers."""
+        from ptmcalc.numerics.belt.curve import CurveStage, Kloss
+
         return tuple(
             CurveStage(
                 stage.pieces or stage.knots,
                 stage.extends,
-                stage.kloss,
+                None if stage.kloss is None else Kloss(*stage.kloss),
                 math.inf if stage.until_speed is None else stage.until_speed,
                 math.inf if stage.until_time is None else stage.until_time,
             )
@@ -257,7 +261,7 @@ class InductionBase(Motor):
         return Stage(
             formula=lambda speed: motor.kloss(motor.slip(speed, synchronous), *curve),
             slope=lambda speed: -motor.kloss_slope(motor.slip(speed, synchronous), *curve) / synchronous,
-            kloss=Kloss(self.breakdown_torque, slip_of_most, self._stator_ratio / factor * slip_of_most, synchronous),
+            kloss=(self.breakdown_torque, slip_of_most, self._stator_ratio / factor * slip_of_most, synchronous),
             until_speed=until_speed,
             until_time=until_time,
         )

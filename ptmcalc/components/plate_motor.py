@@ -24,7 +24,6 @@ from ptmcalc.spec.fields import PositiveAngularSpeed, PositiveInertia, PositiveP
 from ptmcalc.spec.fragment import Conflict, Given, together
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.optional import Assumed, Limit, OneOf
-from ptmcalc.spec.shape import Also
 
 
 class PlateMotor(MotorBase):
@@ -35,16 +34,16 @@ class PlateMotor(MotorBase):
 
     inertia: Annotated[PositiveInertia | None, Assumed()] = None
     """rotor of one motor; that of typical motors is assumed where only the rating plate is given"""
-    power: Annotated[PositivePower | None, Limit(), Also("rated_power")] = None
+    power: Annotated[PositivePower | None, Limit()] = None
     """rated power of one motor; with `speed` or `poles` the rating plate of a cage motor, which gives its curve"""
-    speed: Annotated[PositiveAngularSpeed | None, Assumed(), Also("rated_speed")] = None
+    speed: Annotated[PositiveAngularSpeed | None, Assumed()] = None
     """rated speed; compared with machine speed, ratio and pulley, drum or sprocket; that of typical motors is assumed
     where only `power` and `poles` are given"""
     poles: Annotated[Literal[4, 6] | None, OneOf("speed")] = None
     """number of poles at 50 Hz, with `power`"""
     locked_rotor_ratio: Annotated[PositiveRatio | None, Assumed()] = None
     """locked-rotor torque / rated torque, with `power`; that of typical motors is assumed when left out"""
-    breakdown_ratio: Annotated[RatioAboveOne | None, Assumed(), Also("overload")] = None
+    breakdown_ratio: Annotated[RatioAboveOne | None, Assumed()] = None
     """breakdown torque / rated torque, with `power`; that of typical motors is assumed when left out"""
 
     @classmethod

@@ -28,7 +28,7 @@ class StarDelta(Fragment):
 
 
 class SoftStarter(Fragment):
-    """A soft starter: the voltage rises evenly, and the torque with its square."""
+    """A soft starter: the voltage rises linearly, and the torque with its square."""
 
     type: Literal["soft"]
     initial_voltage: Annotated[Fraction, Assumed(0.4, 0.3, 0.5, "soft starters begin at 0.3 to 0.5 of the voltage")] = (

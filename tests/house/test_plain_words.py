@@ -81,6 +81,9 @@ def texts_of(module: Path) -> Iterator[tuple[int, str]]:
     commands."""
     tree = ast.parse(module.read_text("utf-8"))
     below = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):  # names of the members of a struct are no text
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "_members":
+            below |= {id(word.value) for word in node.keywords}
     for node in ast.walk(tree):
         if (
             isinstance(node, ast.Constant)

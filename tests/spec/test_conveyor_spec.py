@@ -442,7 +442,6 @@ REQUIRED = [
     "idlers.carry",
     "idlers.return",
     "drive.motor",
-    "drive.motor.inertia",
     "drive.gear",
     "drive.gear.ratio",
     "drive.drum",
@@ -460,6 +459,12 @@ def without(data: dict[str, Any], path: KeyPath) -> dict[str, Any]:
         node = node[step]
     del node[path[-1]]
     return data
+
+
+def test_a_motor_without_a_rating_plate_needs_its_inertia() -> None:
+    text = yaml.safe_dump(without(yaml.safe_load(MACHINE), key_path("drive.motor.inertia")), sort_keys=False)
+    problem = problem_in(text)
+    assert (problem.path, problem.hint) == (("drive", "motor"), "add `inertia: 1.4 kg*m^2`")
 
 
 @pytest.mark.parametrize("key", REQUIRED)

@@ -75,7 +75,7 @@ COUPLING_HEAT: Check[Conveyor, Start] = Check(
     repair=no_repair,
     each=_coupling_checks,
     what="The heat of each fluid coupling in a start is at most the manufacturer's value.",
-    why="A coupling that slips too long melts its fusible plug and loses its oil: the belt stands still.",
+    why="A coupling that slips too long melts its fusible plug and loses its oil, and the belt stops.",
     formula="integral of M (w_0 - w) dt <= allowed",
     source="power into the coupling less that of its turbine wheel; the coupling's data sheet",
 )
