@@ -14,6 +14,7 @@ from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
 from ptmcalc.machines.conveyor.keys.route import Route
+from ptmcalc.machines.conveyor.keys.takeup import TakeUp
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Fraction,
@@ -21,9 +22,7 @@ from ptmcalc.spec.fields import (
     PositiveAcceleration,
     PositiveAngle,
     PositiveEnergy,
-    PositiveForce,
     PositiveLength,
-    PositiveMass,
     PositiveRatio,
     PositiveSpan,
     PositiveSpeed,
@@ -33,7 +32,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 from ptmcalc.spec.shape import Also
 
@@ -96,27 +95,6 @@ class Backstop(Fragment):
     """rated torque, on the shaft of the head pulley"""
     reserve: Annotated[FactorFromOne, Limit()] = USUAL_RESERVE
     """rated torque / rollback torque; 1.25 to 1.75 in practice"""
-
-
-class TakeUp(Fragment):
-    """Take-up of the belt."""
-
-    type: Literal["gravity", "rigid"]
-    """`gravity`: a weight next to the drive keeps the leaving tension; `rigid`: a screw or locked winch"""
-    tension: PositiveForce
-    """belt tension: leaving tension (gravity), or the mean of the loop when it was set (rigid)"""
-    mass: Annotated[PositiveMass | None, Assumed(), Also("counterweight_mass")] = None
-    """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
-    stroke: Annotated[PositiveLength | None, Checked(), Also("travel")] = None
-    """available take-up travel; needed to check it"""
-    permanent_elongation: Annotated[Fraction | None, Assumed()] = None
-    """of the belt over its life, as a share of its length; adds to the required take-up travel"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """Only a weight has a mass, and what hangs on two falls pulls with half of it."""
-        if given.word("type") == "rigid" and "mass" in given:
-            yield Conflict(("mass",), "a fixed take-up does not move", "delete `mass`, or write `type: gravity`")
 
 
 class TailDrum(Fragment):

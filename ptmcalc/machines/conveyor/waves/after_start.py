@@ -12,7 +12,7 @@ from ptmcalc.contract.result import Found, family, of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS
+from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS, TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force, grips, starting_force
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.numerics.free_waves import Row, swings
@@ -81,8 +81,10 @@ def still_to_come(spec: Conveyor, line: BeltLine, end: Ending, loads: Mapping[st
         if kind in SLIPS:
             used = after.loads.get("slip_utilisation_max" + name[len(kind) :], math.inf)
             offset = Interval(0.0, math.inf if end.slips or used >= 1 else 0.0)
-        elif kind == "takeup_movement":
-            offset = Interval(0.0, max(after.way, 2 * after.way - found.estimate.high))
+        elif kind in ("takeup_movement", TAKEUP_TOTAL):
+            offset = Interval(0.0, max(after.way, 2 * after.way - loads["takeup_movement"].estimate.high))
+        elif kind in TAKEUP_CLEARANCES:
+            offset = Interval(-after.way, 0.0)
         elif name not in after.loads:
             continue
         elif kind in _FALL:
