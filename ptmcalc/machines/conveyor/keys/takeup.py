@@ -57,9 +57,7 @@ class TakeUp(Fragment):
                 yield Conflict(("position",), "a fixed take-up has no weight with a position", hint)
         for key in (*_OF_BUDGET, "thermal_expansion"):
             if key in given and "stroke" not in given:
-                yield Conflict(
-                    (key,), "the available travel is missing, with which it is compared", "add `stroke: 6 m`"
-                )
+                yield Conflict((key,), "the available travel it counts against is missing", "add `stroke: 6 m`")
         stroke, position = given.number("stroke"), given.number("position")
         if stroke is not None and position is not None and position > stroke:
             reason = f"the weight is at {position:.4g} m of a travel of {stroke:.4g} m"

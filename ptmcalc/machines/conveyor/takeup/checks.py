@@ -97,8 +97,8 @@ STOPS: Check[Conveyor, ConveyorScene] = only(
         blame=_blame,
         repair=lambda spec, scene: _STROKE,
         repairs_blame=True,
-        what="The take-up weight stays within its travel from its position at the beginning of the scene. The belt loads"
-        " of a scene in which it may reach a stop have no bound, because the simulation ends there.",
+        what="The take-up weight stays within its travel from its position at the beginning of the scene. The belt"
+        " loads of a scene in which it may reach a stop have no bound, because the simulation ends there.",
         why="A weight at its upper stop is a fixed take-up: the tension of a start or a stop rises without limit by it."
         " A weight on its lower stop leaves the belt slack.",
         formula="min(x_0 + s_min, stroke - x_0 - s_max) >= 0",

@@ -66,7 +66,10 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
-    failures, end = (*failures_of(case, drawn, ready), *slack), _ending(case, runs, slipping)
+    failures, end = (
+        (*failures_of(case, drawn, ready), *slack, *takeup_stops.failures(case, drawn, loads)),
+        _ending(case, runs, slipping),
+    )
     if unfinished(case, drawn):
         loads = loads_so_far(case, loads, [one.drawn for one in runs])
     later = still_to_come(spec, case.line, end, loads) if end else {}

@@ -1,11 +1,12 @@
 """A take-up weight that may reach a stop during a scene: from there on its tension is not that of the simulation."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from ptmcalc.base.estimate import Interval
-from ptmcalc.contract.result import Found, family
+from ptmcalc.contract.result import Failure, Found, family
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, TAKEUP_CLEARANCES, TAKEUP_WAYS
 from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.motion import Moving
@@ -56,3 +57,25 @@ def contact(
         if family(name) in (CHANGED_BY_MOTION | frozenset(DRIVE)) - TAKEUP_WAYS
     }
     return unknown, f"the take-up weight {does}: its tension is unknown from there on"
+
+
+def failures(case: Moving, drawn: Drawn, loads: Mapping[str, Found]) -> Iterator[Failure]:
+    """A weight that reaches a stop whatever the error bars are, with the travel and the position that pass."""
+    known = [loads[name].estimate for name in TAKEUP_CLEARANCES if name in loads]
+    if not known or min(one.high for one in known) >= 0:
+        return
+    takeup, way = case.spec.takeup, sinking(drawn)
+    begins, stroke = filled(takeup.position), filled(takeup.stroke)
+    above, below = (_upward(part - one.low) for part, one in zip((begins, stroke - begins), known, strict=True))
+    stop, when = ("upper", way.argmin()) if known[0].low < known[1].low else ("lower", way.argmax())
+    outside = np.flatnonzero((begins + way < 0) | (begins + way > stroke))
+    time = drawn.times[outside[0] if len(outside) else when]
+    reason = f"the take-up weight reaches its {stop} stop at {time:.3g} s and no longer keeps the tension"
+    cure = f"`travel: {max(above + below, stroke):.4g} m` passes with `position: {above:.4g} m`"
+    path = ("takeup", "stroke" if above + below > stroke else "position")
+    yield Failure("CNV141", reason, path, cure)
+
+
+def _upward(way: float) -> float:
+    """A distance rounded up to a centimetre [m], at least 0."""
+    return max(math.ceil(way * 100 - 1e-6), 0) / 100
