@@ -106,7 +106,7 @@ def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Whether a solver of the plain start can take the machine.
 
         n = slopes and loads along a strand + drives + 1 for an aborted start, + 1 for a motor's curve or a table, + 1
-        for a take-up weight whose stops are known
+        for a take-up weight at the tail or with known stops
 
     A relaxed belt is taken as one with the running friction frozen in it; the effect `coulomb_idlers` says by how much.
 
@@ -117,6 +117,11 @@ def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     line = belt_line(spec, scene)
     parts = max(1 if strand.even else len(strand.masses) for strand in (line.carry, line.back))
     unusual = isinstance(scene, Start) and (scene.aborted is not None) + (scene.profile.shape in ("curve", "table"))
-    count = parts + len(spec.all_drives) + unusual + (spec.takeup.budgeted and not line.fixed_length)
+    count = (
+        parts
+        + len(spec.all_drives)
+        + unusual
+        + (line.weight_at_tail or (spec.takeup.budgeted and not line.fixed_length))
+    )
     meaning = "slopes, drives, aborted starts, curves and tables: 2 for one slope and one drive"
     return Criterion("n", count, 3, meaning, "count")

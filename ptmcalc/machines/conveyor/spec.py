@@ -310,6 +310,7 @@ class Conveyor(MachineSpec):
             reason = "no drive is at the head, the reference point of take-up and tension"
             yield Conflict(("drives",), reason, "reverse the route, so that a drive is at its head")
         yield from _no_motor_there(given)
+        yield from _moving_tail(given)
         yield from _without_density(given)
         route, resistance = given.block("route"), given.block("resistance")
         length = _whole_length(route) if route else None
@@ -396,6 +397,20 @@ def _no_motor_there(given: Given) -> Iterator[Conflict]:
         if isinstance(brake, dict) and (brake.get("at"), brake.get("shaft")) == ("tail", "motor"):
             reason = "no drive is at the tail, and so no motor shaft"
             yield Conflict(("brakes", name, "shaft"), reason, "write `shaft: drum`, or `at: head`")
+
+
+def _moving_tail(given: Given) -> Iterator[Conflict]:
+    """A tail pulley on the carriage of a take-up has no drive, and its weight follows the waves of the belt."""
+    takeup, drives = given.block("takeup"), given.raw.get("drives")
+    if takeup is None or (takeup.word("type"), takeup.word("at")) != ("gravity", "tail"):
+        return
+    placed = list(drives.values()) if isinstance(drives, dict) else []
+    if any(isinstance(drive, dict) and drive.get("at") == "tail" for drive in placed):
+        yield Conflict(("takeup", "at"), "a driven tail pulley is no take-up pulley", "write `at: head`")
+    effects = given.raw.get("effects")
+    if isinstance(effects, dict) and effects.get("belt_wave") in ("off", False):
+        reason = "a take-up at the tail is only computed with the waves of the belt"
+        yield Conflict(("effects", "belt_wave"), reason, "delete `belt_wave`, or write `at: head` under `takeup`")
 
 
 def _without_curves(given: Given) -> Iterator[Conflict]:

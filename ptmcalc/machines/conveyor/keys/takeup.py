@@ -23,9 +23,12 @@ class TakeUp(Fragment):
     """Take-up of the belt."""
 
     type: Literal["gravity", "rigid"]
-    """`gravity`: a weight next to the drive keeps the leaving tension; `rigid`: a screw or locked winch"""
+    """`gravity`: a weight keeps the belt tension at its place; `rigid`: a screw or locked winch"""
+    at: Literal["head", "tail"] = "head"
+    """`head`: a weight behind the head pulleys; `tail`: a weight that pulls the tail pulley; a screw may be anywhere"""
     tension: PositiveForce
-    """belt tension: leaving tension (gravity), or the mean of the loop when it was set (rigid)"""
+    """belt tension: leaving tension (gravity at the head), mean of both sides of the tail pulley (gravity at the tail),
+    or the mean of the loop when it was set (rigid)"""
     mass: Annotated[PositiveMass | None, Assumed(), Also("counterweight_mass")] = None
     """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
     stroke: Annotated[PositiveLength | None, Checked(), Also("travel")] = None
@@ -45,6 +48,11 @@ class TakeUp(Fragment):
     def budgeted(self) -> bool:
         """True if the file gives a share of the travel besides the stroke: all scenes are then checked against it."""
         return self.stroke is not None and any(getattr(self, key) is not None for key in _OF_BUDGET)
+
+    @property
+    def pulls_tail(self) -> bool:
+        """True if a weight pulls the tail pulley."""
+        return self.type == "gravity" and self.at == "tail"
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -159,6 +159,8 @@ def fillings(spec: Conveyor, scene: Run) -> Fillings:
     shares = share(spec)
     at_tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
     everywhere = everywhere - at_tail * (pulls + everywhere)
+    if full.weight_at_tail:  # half of what the load adds at the tail pulley lowers the tension before it
+        everywhere = everywhere / 2
     marks, whole = np.array(full.carry.marks), full.carry.length
     if full.fixed_length:
         rest = np.diff(marks) / 2 + whole - marks[1:]

@@ -55,7 +55,8 @@ def _mean(line: BeltLine, at_rest: bool = False) -> float:
 
     back, carry = (line.static_ends(which)[0] for which in (RETURN, CARRY))
     if at_rest:
-        back, carry = line.takeup_tension, line.takeup_tension + line.back.climb[-1]
+        back = line.takeup_tension - (line.back.climb[-1] if line.weight_at_tail else 0.0)
+        carry = back + line.back.climb[-1]
     return (area(line.back, back) + area(line.carry, carry)) / (line.back.length + line.carry.length)
 
 

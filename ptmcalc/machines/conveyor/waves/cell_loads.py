@@ -89,7 +89,7 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
         values["slip_utilisation_max"] = max(used, key=lambda one: one[0])
         values["slip_reserve_min"] = min(left, key=lambda one: one[0])
     if not line.fixed_length:
-        way = sinking(drawn)
+        way = sinking(case, drawn)
         values["takeup_movement"] = float(way.max() - way.min()), {}
         values |= {name: (value, {}) for name, value in moved(case.spec, way).items()}
     if case.brings_to_rest:

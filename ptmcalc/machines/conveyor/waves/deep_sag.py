@@ -68,7 +68,7 @@ def certain(case: Moving, whole: Mapping[str, Found], early: Mapping[str, Found]
     A stop or a jam begins with even running: its loads are at least as bad as there.
     """
     even = {} if isinstance(case.scene, Start) else tension_loads.even_loads(case.line)
-    kept = not case.line.fixed_length and not case.spec.takeup_weight  # a tension that the take-up keeps
+    kept = case.line.keeps_run_off and not case.spec.takeup_weight  # a tension that the take-up keeps
     found = {}
     for name, one in whole.items():
         value, begins = one.estimate.value, even.get(name)

@@ -111,7 +111,7 @@ def moved(
         ds <= change L_loop/EA        dt <= 2 change/(Z |a|),   a the `slowing` of the rigid body [m/s^2]
     """
     found: dict[str, Interval] = {}
-    fixed = line.fixed_length or off
+    fixed = off or not line.keeps_run_off
     most = max(change.largest, change.smallest)
     stretch = most * (line.back.length + line.carry.length) / line.stiffness
     least = min(line.impedance(RETURN), line.impedance(CARRY))

@@ -15,7 +15,7 @@ from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.numerics.belt.march import Drawn
 
 
-def sinking(drawn: Drawn) -> FloatArray:
+def sinking(case: Moving, drawn: Drawn) -> FloatArray:
     """Distance by which the weight has sunk since the beginning, over time [m]; negative where it has risen.
 
         x = integral of (v_on - v_off) dt/2
@@ -24,7 +24,7 @@ def sinking(drawn: Drawn) -> FloatArray:
     **Error** trapezium rule.
     **Source** the belt that arrives and does not leave lengthens both falls.
     """
-    station, step = drawn.head, float(drawn.times[1])
+    station, step = drawn.tail if case.line.weight_at_tail else drawn.head, float(drawn.times[1])
     apart = station.belt - (station.behind - station.creep)
     way: FloatArray = np.concatenate([[0.0], np.cumsum((apart[1:] + apart[:-1]) / 2)]) * step / 2
     return way
@@ -44,7 +44,7 @@ def contact(
     ends = [loads[name].estimate.low + present.get(name, Interval(0.0, 0.0)).low for name in TAKEUP_CLEARANCES]
     if min(ends) >= 0:
         return {}, ""
-    takeup, way = case.spec.takeup, sinking(drawn)
+    takeup, way = case.spec.takeup, sinking(case, drawn)
     at = filled(takeup.position) + way
     outside = np.flatnonzero((at < 0) | (at > filled(takeup.stroke)))
     stop = "upper" if ends[0] < ends[1] else "lower"
@@ -64,7 +64,7 @@ def failures(case: Moving, drawn: Drawn, loads: Mapping[str, Found]) -> Iterator
     known = [loads[name].estimate for name in TAKEUP_CLEARANCES if name in loads]
     if not known or min(one.high for one in known) >= 0:
         return
-    takeup, way = case.spec.takeup, sinking(drawn)
+    takeup, way = case.spec.takeup, sinking(case, drawn)
     begins, stroke = filled(takeup.position), filled(takeup.stroke)
     above, below = (_upward(part - one.low) for part, one in zip((begins, stroke - begins), known, strict=True))
     stop, when = ("upper", way.argmin()) if known[0].low < known[1].low else ("lower", way.argmax())
