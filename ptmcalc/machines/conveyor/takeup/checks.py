@@ -60,7 +60,14 @@ def _contact(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 
 
 def _nearest(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Estimate:
-    """Distance from the nearer stop."""
+    """Distance from the nearer stop.
+
+        min(x_0 + s_min, stroke - x_0 - s_max)
+
+    **Range** a gravity take-up with a given stroke.
+    **Error** that of the movement, by the simulation.
+    **Source** geometry.
+    """
     one, other = (loads[name] for name in TAKEUP_CLEARANCES)
     return Estimate(
         min(one.value, other.value),

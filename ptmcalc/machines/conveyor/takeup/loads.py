@@ -7,24 +7,20 @@ from ptmcalc.contract.result import LoadInfo
 from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.spec import Conveyor
 
-SHARES = (
-    "takeup_travel_elastic",
-    "takeup_travel_thermal",
-    "takeup_travel_permanent",
-    "takeup_travel_installation",
-)
-"""Shares of the take-up travel that are equal in all scenes."""
 UPPER, LOWER = TAKEUP_CLEARANCES
 
 LOADS = (
     LoadInfo(TAKEUP_TOTAL, "required take-up travel, all shares", units.LENGTH),
-    LoadInfo(SHARES[0], "take-up travel, elastic elongation", units.LENGTH),
-    LoadInfo(SHARES[1], "take-up travel, thermal elongation", units.LENGTH),
-    LoadInfo(SHARES[2], "take-up travel, permanent elongation", units.LENGTH),
-    LoadInfo(SHARES[3], "take-up travel, installation and splice", units.LENGTH),
+    LoadInfo("takeup_travel_elastic", "take-up travel, elastic elongation", units.LENGTH),
+    LoadInfo("takeup_travel_thermal", "take-up travel, thermal elongation", units.LENGTH),
+    LoadInfo("takeup_travel_permanent", "take-up travel, permanent elongation", units.LENGTH),
+    LoadInfo("takeup_travel_installation", "take-up travel, installation and splice", units.LENGTH),
     LoadInfo(UPPER, "take-up weight distance from upper stop, minimum", units.LENGTH),
     LoadInfo(LOWER, "take-up weight distance from lower stop, minimum", units.LENGTH),
 )
+
+SHARES = tuple(info.name for info in LOADS[1:5])
+"""Shares of the take-up travel that are equal in all scenes."""
 
 
 def loads_of(spec: Conveyor) -> Iterator[LoadInfo]:
