@@ -43,7 +43,7 @@ TRAVEL_BUDGET: Check[Conveyor, ConveyorScene] = only(
         " belt at rest and the running belt, largest movement of the scene, thermal and permanent elongation,"
         " installation with the reserve for a splice. A fixed take-up has no elastic share and no movement.",
         why="A weight at its stop no longer keeps the tension. A belt without splice reserve must be lengthened.",
-        formula="L ((S_mean - S_rest)/EA + alpha_T dT + eps_p)/2 + s_m + s_i <= stroke",
+        formula="s_e + s_t + s_p + s_i + s_m <= stroke",
         source="DIN 22101, take-up travel; manuals of belt manufacturers",
     )
 )

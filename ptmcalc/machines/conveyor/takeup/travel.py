@@ -16,21 +16,7 @@ from ptmcalc.machines.conveyor.takeup.loads import SHARES
 
 @kept_for(64)
 def shares(spec: Conveyor) -> dict[str, float]:
-    """Shares of the take-up travel that are equal in all scenes [m].
-
-        elastic       s_e = max(0, s_full, s_empty) - min(0, s_full, s_empty),   s = L (S_mean - S_rest)/(2 EA)
-        thermal       s_t = alpha_T dT L/2
-        permanent     s_p = eps_p L/2
-        installation  s_i of the file
-
-    L is the length of the whole belt. S_mean is the mean tension of the belt running full or empty, S_rest that of the
-    empty belt at rest, without friction, at the tension of the take-up. A fixed take-up keeps the length of the belt,
-    and with it the mean tension: its elastic share is 0.
-
-    **Range** a gravity or a fixed take-up on two falls; one stiffness all round.
-    **Error** exact for given keys; assumed ones have an interval.
-    **Source** Hooke's law over the loop; shares of the take-up travel in DIN 22101 and in manuals of belt makers.
-    """
+    """Shares of the take-up travel that are equal in all scenes [m]; formulas in `run`."""
     takeup = spec.takeup
     full, empty = (running(spec, Run(load=load)) for load in ("full", "empty"))
     half = (full.back.length + full.carry.length) / 2
@@ -61,15 +47,21 @@ def _mean(line: BeltLine, at_rest: bool = False) -> float:
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
-    """Take-up travel of a scene by its shares; the whole of it in steady running.
+    """Take-up travel of a scene by its shares.
 
-        s = s_e + s_t + s_p + s_i,   and in starts, stops and jams + s_m, the range of movement of the scene
+        s_e = max(0, s_full, s_empty) - min(0, s_full, s_empty),   s = L (S_mean - S_rest)/(2 EA)
+        s_t = alpha_T dT L/2,   s_p = eps_p L/2
+        s_all = s_e + s_t + s_p + s_i + s_m
 
-    A start of a relaxed belt contains the elastic share in its movement too: the sum is on the safe side.
+    The movement s_m is 0 in steady running; the simulation of a start, a stop or a jam gives it and the sum of that
+    scene. The rest is the empty belt without friction at the tension of the take-up. A fixed take-up keeps the length
+    of the belt, and with it the mean tension: its elastic share is 0. The movement of a start of a relaxed belt
+    contains the elastic share too: the sum is then on the safe side.
 
-    **Range** files that give the travel and one of its shares.
-    **Error** exact for given keys; the movement has the error bar of its simulation.
-    **Source** `takeup.travel.shares`.
+    **Range** a gravity or a fixed take-up on two falls; one stiffness all round; files that give the travel and one of
+    its shares.
+    **Error** exact for given keys; assumed ones have an interval, the movement has the error bar of its simulation.
+    **Source** Hooke's law over the loop; shares of the take-up travel in DIN 22101 and in manuals of belt makers.
     """
     found = shares(spec)
     whole = {TAKEUP_TOTAL: sum(found.values())} if isinstance(scene, Run) else {}
