@@ -17,37 +17,37 @@ from types import MappingProxyType
 
 from ptmcalc.base.words import quote, with_article
 
-Dimension = tuple[int, int, int, int]
-"""Exponents of mass, length, time, angle."""
+Dimension = tuple[int, int, int, int, int]
+"""Exponents of mass, length, time, angle, temperature."""
 
-_PURE: Dimension = (0, 0, 0, 0)
-_FORCE: Dimension = (1, 1, -2, 0)
-_PRESSURE: Dimension = (1, -1, -2, 0)
-_ENERGY: Dimension = (1, 2, -2, 0)
-_POWER: Dimension = (1, 2, -3, 0)
+_PURE: Dimension = (0, 0, 0, 0, 0)
+_FORCE: Dimension = (1, 1, -2, 0, 0)
+_PRESSURE: Dimension = (1, -1, -2, 0, 0)
+_ENERGY: Dimension = (1, 2, -2, 0, 0)
+_POWER: Dimension = (1, 2, -3, 0, 0)
 
 UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
     {
         "1": (1.0, _PURE),
         "%": (1e-2, _PURE),
-        "kg": (1.0, (1, 0, 0, 0)),
-        "g": (1e-3, (1, 0, 0, 0)),
-        "t": (1e3, (1, 0, 0, 0)),
-        "m": (1.0, (0, 1, 0, 0)),
-        "mm": (1e-3, (0, 1, 0, 0)),
-        "cm": (1e-2, (0, 1, 0, 0)),
-        "km": (1e3, (0, 1, 0, 0)),
-        "s": (1.0, (0, 0, 1, 0)),
-        "ms": (1e-3, (0, 0, 1, 0)),
-        "min": (60.0, (0, 0, 1, 0)),
-        "h": (3600.0, (0, 0, 1, 0)),
-        "Hz": (1.0, (0, 0, -1, 0)),
-        "rad": (1.0, (0, 0, 0, 1)),
-        "mrad": (1e-3, (0, 0, 0, 1)),
-        "deg": (math.pi / 180, (0, 0, 0, 1)),
-        "°": (math.pi / 180, (0, 0, 0, 1)),
-        "rev": (2 * math.pi, (0, 0, 0, 1)),
-        "rpm": (2 * math.pi / 60, (0, 0, -1, 1)),
+        "kg": (1.0, (1, 0, 0, 0, 0)),
+        "g": (1e-3, (1, 0, 0, 0, 0)),
+        "t": (1e3, (1, 0, 0, 0, 0)),
+        "m": (1.0, (0, 1, 0, 0, 0)),
+        "mm": (1e-3, (0, 1, 0, 0, 0)),
+        "cm": (1e-2, (0, 1, 0, 0, 0)),
+        "km": (1e3, (0, 1, 0, 0, 0)),
+        "s": (1.0, (0, 0, 1, 0, 0)),
+        "ms": (1e-3, (0, 0, 1, 0, 0)),
+        "min": (60.0, (0, 0, 1, 0, 0)),
+        "h": (3600.0, (0, 0, 1, 0, 0)),
+        "Hz": (1.0, (0, 0, -1, 0, 0)),
+        "rad": (1.0, (0, 0, 0, 1, 0)),
+        "mrad": (1e-3, (0, 0, 0, 1, 0)),
+        "deg": (math.pi / 180, (0, 0, 0, 1, 0)),
+        "°": (math.pi / 180, (0, 0, 0, 1, 0)),
+        "rev": (2 * math.pi, (0, 0, 0, 1, 0)),
+        "rpm": (2 * math.pi / 60, (0, 0, -1, 1, 0)),
         "N": (1.0, _FORCE),
         "kN": (1e3, _FORCE),
         "MN": (1e6, _FORCE),
@@ -63,6 +63,7 @@ UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
         "W": (1.0, _POWER),
         "kW": (1e3, _POWER),
         "MW": (1e6, _POWER),
+        "K": (1.0, (0, 0, 0, 0, 1)),
     }
 )
 
@@ -93,7 +94,7 @@ _HINTS: Mapping[str, str] = MappingProxyType(
         "lb/m": "write `kg/m`: 1 lb/m = 0.45359 kg/m",
         "lb/ft": "write `kg/m`: 1 lb/ft = 1.48816 kg/m",
         "fpm": "write `m/s`: 1 ft/min = 0.00508 m/s",
-        "°C": "no key takes a temperature; an angle is in `deg`",
+        "°C": "an angle is in `deg`, a temperature difference in `K`",
     }
 )
 
@@ -173,6 +174,8 @@ WEAR_DEPTH = _quantity("depth of wear over pressure and path", "m^2/N", "mm^2/MN
 THICKNESS = _quantity("length", "m", "mm", example="0.02 mm")
 PRESSURE = _quantity("pressure", "Pa", "kPa", "MPa", example="50 kPa")
 SECOND_MOMENT = _quantity("second moment of area", "m^4", "cm^4", example="20000 cm^4")
+TEMPERATURE_DIFFERENCE = _quantity("temperature difference", "K", example="40 K")
+THERMAL_EXPANSION = _quantity("thermal expansion coefficient", "1/K", example="0.000012 1/K")
 SECTION_MODULUS = _quantity("section modulus", "m^3", "cm^3", example="1600 cm^3")
 
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -229,7 +232,13 @@ def _product(text: str, factors: str) -> tuple[float, Dimension]:
 
 
 def _combine(a: Dimension, b: Dimension, power: int) -> Dimension:
-    return (a[0] + power * b[0], a[1] + power * b[1], a[2] + power * b[2], a[3] + power * b[3])
+    return (
+        a[0] + power * b[0],
+        a[1] + power * b[1],
+        a[2] + power * b[2],
+        a[3] + power * b[3],
+        a[4] + power * b[4],
+    )
 
 
 def _suggest(text: str, part: str) -> str:

@@ -134,7 +134,7 @@ class ModelReport:
 
 def scale_of(quantity: Quantity, of: Scales) -> float:
     """Model over prototype of a quantity, from its dimension [1]."""
-    mass, length, time, _ = quantity.dimension
+    mass, length, time = quantity.dimension[:3]
     return of.mass**mass * of.length**length * of.time**time
 
 

@@ -37,6 +37,11 @@ class Row:
     pulls: FloatArray
     held: tuple[int, ...]
     rate_energy: float
+    cut: int = 0
+    """mass at which the row is cut, where a take-up is between this mass and one more at the end of the arrays, from
+    which the next spring begins; 0 for none"""
+    tie: float = 0.0
+    """mass that the relative speed of both sides of the cut moves [kg]: M/4 of a weight on two falls"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +66,12 @@ class Swings:
         found: FloatArray = np.abs(self.modes) @ self.amplitudes
         return found
 
+    def way_of_weight(self, row: Row) -> float:
+        """Most by which the belt at a take-up strays: its first mass from the held drum, or both sides of the cut."""
+        if not row.cut:
+            return float(self.ways[0])
+        return float(np.abs(self.modes[row.cut] - self.modes[-1]) @ self.amplitudes)
+
     def together(self, weights: Mapping[int, float]) -> float:
         """Most by which a sum of some pulls with weights strays at any one time [N]."""
         bent = sum(weight * self.bent[spring] for spring, weight in weights.items())
@@ -79,6 +90,8 @@ def swings(row: Row) -> Swings:
     **Source** module docstring; derived.
     """
     free = np.setdiff1d(np.arange(len(row.masses)), np.mod(row.held, len(row.masses)))
+    if row.cut:
+        return _swings_of_cut(row, free)
     scale = 1 / np.sqrt(row.masses[free])
     stiffness = np.zeros((len(row.masses), len(row.masses)))
     springs, at = 1 / row.compliances, np.arange(len(row.compliances))
@@ -89,10 +102,32 @@ def swings(row: Row) -> Swings:
     modes = np.zeros((len(row.masses), len(free)))
     modes[free] = shapes * scale[:, None]
     bent = np.diff(modes, axis=0) / row.compliances[:, None]
+    return _swings(row, squares, modes, bent, row.masses * row.speeds)
+
+
+def _swings_of_cut(row: Row, free: NDArray[np.int_]) -> Swings:
+    """The same of a row with a take-up at its cut: M = diag(m) + m_tie u u', u the difference of both sides."""
+    springs, last = np.arange(len(row.compliances)), len(row.masses) - 1
+    first, second = np.where(springs == row.cut, last, springs), springs + 1
+    reach = np.zeros((len(springs), len(row.masses)))
+    reach[springs, first], reach[springs, second] = -1.0, 1.0
+    apart = np.zeros(len(row.masses))
+    apart[row.cut], apart[last] = 1.0, -1.0
+    whole = np.diag(row.masses) + row.tie * np.outer(apart, apart)
+    stiffness = reach.T @ (reach / row.compliances[:, None])
+    lower = np.linalg.inv(np.linalg.cholesky(whole[np.ix_(free, free)]))
+    squares, shapes = np.linalg.eigh(lower @ stiffness[np.ix_(free, free)] @ lower.T)
+    modes = np.zeros((len(row.masses), len(free)))
+    modes[free] = lower.T @ shapes
+    return _swings(row, squares, modes, reach @ modes / row.compliances[:, None], whole @ row.speeds)
+
+
+def _swings(row: Row, squares: FloatArray, modes: FloatArray, bent: FloatArray, momentum: FloatArray) -> Swings:
+    """Amplitudes of the modes, by what they have of the pulls and speeds of the row."""
     frequencies = np.sqrt(np.maximum(squares, squares[-1] * np.finfo(float).eps))
     moved = (row.pulls * row.compliances) @ bent / frequencies**2
-    moving = (row.masses * row.speeds) @ modes / frequencies
+    moving = momentum @ modes / frequencies
     amplitudes = np.hypot(moved, moving)
     known = float((frequencies**4 * amplitudes**2).sum()) / 2
-    rest = 2 * max(row.rate_energy - known, 0.0) * _TAIL * float(row.masses.sum()) / len(free)
+    rest = 2 * max(row.rate_energy - known, 0.0) * _TAIL * float(row.masses.sum()) / len(squares)
     return Swings(amplitudes, bent, modes, math.sqrt(rest))

@@ -48,7 +48,7 @@ from ptmcalc.base.units import (
 
 QUANTITIES = [value for value in vars(units).values() if isinstance(value, Quantity)]
 PINT_NAMES = {"1": "dimensionless", "%": "percent", "t": "metric_ton", "rev": "revolution", "°": "degree"}
-BASE = ("[mass]", "[length]", "[time]", "[angle]")
+BASE = ("[mass]", "[length]", "[time]", "[angle]", "[temperature]")
 
 
 @pytest.fixture(scope="module")
@@ -160,7 +160,7 @@ def test_a_second_slash_is_refused(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["", "*m", "m*", "N/", "/s", "m**2", "m^", "m^1.5", "m^10", "N/(m*s)", "K", "psi", "C", "m_s", "2*m"]
+    "text", ["", "*m", "m*", "N/", "/s", "m**2", "m^", "m^1.5", "m^10", "N/(m*s)", "R", "psi", "C", "m_s", "2*m"]
 )
 def test_what_is_not_in_the_table_is_refused(text: str) -> None:
     with pytest.raises(UnitError) as caught:

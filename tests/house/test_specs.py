@@ -29,6 +29,7 @@ MOST_EVALUATIONS = {
     "conveyor/hollow_conveyor.yaml": 18_000_000,
     "conveyor/two_drive_conveyor.yaml": 19_000_000,
     "conveyor/screw_takeup_conveyor.yaml": 8_000_000,
+    "conveyor/tail_takeup_conveyor.yaml": 3_000_000,
     "conveyor/overland_conveyor.yaml": 22_000_000,
     "conveyor/grain_conveyor.yaml": 22_000_000,
     "conveyor/fluid_coupling_conveyor.yaml": 60_000_000,

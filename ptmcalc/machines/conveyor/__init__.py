@@ -12,10 +12,11 @@ from ptmcalc.machines.conveyor.running.topic import RUNNING
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.starting.topic import STARTING
 from ptmcalc.machines.conveyor.stopping.topic import STOPPING
+from ptmcalc.machines.conveyor.takeup.topic import TAKEUP
 from ptmcalc.machines.conveyor.traction.topic import TRACTION
 from ptmcalc.machines.conveyor.waves.topic import WAVES
 
-TOPICS = (RUNNING, TRACTION, ROLLBACK, STOPPING, STARTING, WAVES)
+TOPICS = (RUNNING, TRACTION, TAKEUP, ROLLBACK, STOPPING, STARTING, WAVES)
 
 KIND = MachineKind(
     name="conveyor",

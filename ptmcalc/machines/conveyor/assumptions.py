@@ -1,7 +1,7 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from ptmcalc.base import units
@@ -11,6 +11,7 @@ from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
+from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.model import load_line_mass
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Start, Stop, Stopping
@@ -25,6 +26,8 @@ _ROUGH_TAIL_SHARE = 0.01
 larger value widens the error bars; a smaller one excludes heavy pulleys."""
 
 
+_OF_BUDGET = frozenset({TAKEUP_TOTAL, "takeup_travel_thermal", "takeup_travel_installation"})
+"""Loads of the take-up travel that depend on its assumed shares."""
 _TABLE_ENDS = 2000.0
 """Length at which the table of the length factor C(L) ends [m]. Beyond it the lower limit of C - 1 falls as 1/L. A
 larger value narrows the interval of long conveyors."""
@@ -115,6 +118,51 @@ def _tail_diameter(spec: Conveyor) -> float | None:
     return spec.main_drive.drum.diameter if spec.tail_drum.inertia or braked else None
 
 
+def _is_steel(spec: Conveyor) -> bool:
+    return "steel_cord" in (spec.belt.carcass, spec.belt.warp)
+
+
+def _budgeted(value: Callable[[Conveyor], float]) -> Callable[[Conveyor], float | None]:
+    """A value for a file that gives a share of the take-up travel."""
+    return lambda spec: value(spec) if spec.takeup.budgeted else None
+
+
+_OF_TRAVEL: tuple[Assumption[Conveyor], ...] = (
+    Assumption(
+        ("takeup", "temperature_range"),
+        units.TEMPERATURE_DIFFERENCE,
+        _budgeted(lambda spec: 40.0),
+        lambda spec: Interval(20.0, 60.0),
+        "outdoor plant in temperate climate: 40 K between winter and summer; 20 K in a building, 60 K in the sun",
+        Use(loads=_OF_BUDGET),
+    ),
+    Assumption(
+        ("takeup", "thermal_expansion"),
+        units.THERMAL_EXPANSION,
+        _budgeted(lambda spec: 1.2e-5 if _is_steel(spec) else 4e-5),
+        lambda spec: Interval(1.1e-5, 1.3e-5) if _is_steel(spec) else Interval(1e-5, 8e-5),
+        "steel wire 1.1e-5 to 1.3e-5 1/K; textile carcass between drawn yarn (1e-5 1/K or less) and the bulk polymer"
+        " (polyester 6e-5 to 8e-5 1/K), tables of materials",
+        Use(loads=_OF_BUDGET),
+    ),
+    Assumption(
+        ("takeup", "installation"),
+        units.LENGTH,
+        _budgeted(lambda spec: 1.5),
+        lambda spec: Interval(0.5, 3.0),
+        "one splice length: 0.5 m (one step) to 3 m (several steps, wide belt), DIN 22101 and belt manufacturers",
+        Use(loads=_OF_BUDGET),
+    ),
+    Assumption(
+        ("takeup", "position"),
+        units.LENGTH,
+        lambda spec: filled(spec.takeup.stroke) / 2 if spec.takeup.budgeted and spec.takeup.type == "gravity" else None,
+        lambda spec: Interval(*(part * filled(spec.takeup.stroke) for part in (0.25, 0.75))),
+        "the weight is set within the middle half of its travel",
+        Use(loads=frozenset({*TAKEUP_CLEARANCES})),
+    ),
+)
+
 _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "stop_factor"),
@@ -146,6 +194,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         lambda spec: Interval(0.0, _elongation(spec)),
         "belt manufacturers: 0.1 to 0.2 % of steel cord belts, 0.5 to 1.5 % of textile belts over their life",
     ),
+    *_OF_TRAVEL,
     Assumption(
         ("tail_drum", "diameter"),
         units.LENGTH,

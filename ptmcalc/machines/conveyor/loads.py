@@ -77,7 +77,14 @@ OF_START = frozenset(
 )
 """Closed forms of a start."""
 
-OF_NETWORK = OF_BELT.union(OF_STOP, {"takeup_movement"})
+TAKEUP_TOTAL = "takeup_travel_total"
+"""Take-up travel of a scene with its movement."""
+TAKEUP_CLEARANCES = ("takeup_clearance_upper_min", "takeup_clearance_lower_min")
+"""Distances of the take-up weight from its stops."""
+TAKEUP_WAYS = frozenset({"takeup_movement", TAKEUP_TOTAL, *TAKEUP_CLEARANCES})
+"""Loads that move with the take-up, metre by metre."""
+
+OF_NETWORK = OF_BELT.union(OF_STOP, TAKEUP_WAYS)
 """Loads that a march over the whole belt gives, besides those of each drive."""
 
 CHANGED_BY_MOTION = OF_NETWORK | PER_DRIVE

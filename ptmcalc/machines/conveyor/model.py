@@ -97,6 +97,8 @@ class BeltLine:
     """part of the idlers' resistance at rated speed that goes with the speed"""
     tail_pull: float = 0.0
     """what drives at the tail pull in steady motion [N]"""
+    weight_at_tail: bool = False
+    """True if the take-up tension is the mean of both sides of the tail pulley"""
     static_resistance: float = field(init=False, compare=False, repr=False)
     """static resistance left for the drums at the head, at the rim [N]"""
 
@@ -110,12 +112,25 @@ class BeltLine:
 
     @property
     def run_off(self) -> float:
-        """Static tension at the drive's run-off [N]: the take-up's, or what keeps the mean of a fixed loop."""
+        """Static tension at the drive's run-off [N]: the take-up's, or what keeps the mean of a fixed loop.
+
+        S_off = T   (weight at the head)        S_off = T - D/2 - W_return   (weight at the tail)
+
+        D is the step of the tension at the tail pulley, W_return what the return strand adds on the way there. Both
+        sides of a tail pulley on a carriage pull at it: S_before + S_after = 2 T = M g.
+        """
+        if self.weight_at_tail:
+            return self.takeup_tension - self.tail_step / 2 - self.back.rise
         if not self.fixed_length:
             return self.takeup_tension
         before = self.back.rise + self.tail_step
         rises = self.back.mean_rise * self.back.length + (before + self.carry.mean_rise) * self.carry.length
         return self.takeup_tension - rises / (self.back.length + self.carry.length)
+
+    @property
+    def keeps_run_off(self) -> bool:
+        """True if a weight at the head keeps the tension at the run-off."""
+        return not (self.fixed_length or self.weight_at_tail)
 
     @property
     def run_on(self) -> float:
@@ -190,6 +205,7 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
         breaking_force=breaking_force(spec),
         slack_sag=spec.checks.slack_sag,
         speed_share=given.speed_share,
+        weight_at_tail=spec.takeup.pulls_tail,
     )
 
 

@@ -7,7 +7,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ptmcalc.laws import capstan, start_profile
-from ptmcalc.machines.conveyor.drives import along_curve, at_rest, pull, rigid_curve_start, rigid_start, running
+from ptmcalc.machines.conveyor.drives import (
+    along_curve,
+    at_rest,
+    moving_mass,
+    pull,
+    rigid_curve_start,
+    rigid_start,
+    running,
+)
 from ptmcalc.machines.conveyor.load_sharing import creep_of, starting_shares, steady_forces
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force
 from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
@@ -140,6 +148,11 @@ def rough_utilisation(spec: Conveyor, scene: ConveyorScene) -> float:
     forces, braked = steady_forces(spec, line), 2 * deceleration(spec, scene, line)
     belt = line.carry.line_mass * line.carry.length + line.back.line_mass * line.back.length
     behind, worst = line.run_off, 0.0
+    if line.weight_at_tail and isinstance(scene, Start):  # the return strand is accelerated by the slack side alone
+        accelerates = max(sum(map(drive_force, spec.all_drives.values())) - sum(forces.values()), 0.0) / moving_mass(
+            line
+        )
+        behind -= 2 * line.back.line_mass * line.back.length * accelerates
     for name, drive in reversed(list(spec.all_drives.items())):
         if drive.at == "tail":
             continue

@@ -105,7 +105,8 @@ def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
 def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Whether a solver of the plain start can take the machine.
 
-        n = slopes and loads along a strand + drives + 1 for an aborted start, + 1 for a motor's curve or a table
+        n = slopes and loads along a strand + drives + 1 for an aborted start, + 1 for a motor's curve or a table, + 1
+        for a take-up weight at the tail or with known stops
 
     A relaxed belt is taken as one with the running friction frozen in it; the effect `coulomb_idlers` says by how much.
 
@@ -116,6 +117,11 @@ def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     line = belt_line(spec, scene)
     parts = max(1 if strand.even else len(strand.masses) for strand in (line.carry, line.back))
     unusual = isinstance(scene, Start) and (scene.aborted is not None) + (scene.profile.shape in ("curve", "table"))
-    count = parts + len(spec.all_drives) + unusual
+    count = (
+        parts
+        + len(spec.all_drives)
+        + unusual
+        + (line.weight_at_tail or (spec.takeup.budgeted and not line.fixed_length))
+    )
     meaning = "slopes, drives, aborted starts, curves and tables: 2 for one slope and one drive"
     return Criterion("n", count, 3, meaning, "count")

@@ -17,6 +17,7 @@ from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
 from ptmcalc.machines.conveyor.keys.route import Route
+from ptmcalc.machines.conveyor.keys.takeup import TakeUp
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Fraction,
@@ -24,9 +25,7 @@ from ptmcalc.spec.fields import (
     PositiveAcceleration,
     PositiveAngle,
     PositiveEnergy,
-    PositiveForce,
     PositiveLength,
-    PositiveMass,
     PositiveRatio,
     PositiveSpan,
     PositiveSpeed,
@@ -36,7 +35,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 from ptmcalc.spec.shape import Also
 
@@ -142,27 +141,6 @@ class Backstop(Fragment):
     """rated torque, on the shaft of the head pulley"""
     reserve: Annotated[FactorFromOne, Limit()] = USUAL_RESERVE
     """rated torque / rollback torque; 1.25 to 1.75 in practice"""
-
-
-class TakeUp(Fragment):
-    """Take-up of the belt."""
-
-    type: Literal["gravity", "rigid"]
-    """`gravity`: a weight next to the drive keeps the leaving tension; `rigid`: a screw or locked winch"""
-    tension: PositiveForce
-    """belt tension: leaving tension (gravity), or the mean of the loop when it was set (rigid)"""
-    mass: Annotated[PositiveMass | None, Assumed(), Also("counterweight_mass")] = None
-    """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
-    stroke: Annotated[PositiveLength | None, Checked(), Also("travel")] = None
-    """available take-up travel; needed to check it"""
-    permanent_elongation: Annotated[Fraction | None, Assumed()] = None
-    """of the belt over its life, as a share of its length; adds to the required take-up travel"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """Only a weight has a mass, and what hangs on two falls pulls with half of it."""
-        if given.word("type") == "rigid" and "mass" in given:
-            yield Conflict(("mass",), "a fixed take-up does not move", "delete `mass`, or write `type: gravity`")
 
 
 class TailDrum(Fragment):
@@ -378,6 +356,7 @@ class Conveyor(MachineSpec):
             reason = "no drive is at the head, the reference point of take-up and tension"
             yield Conflict(("drives",), reason, "reverse the route, so that a drive is at its head")
         yield from _no_motor_there(given)
+        yield from _moving_tail(given)
         yield from _without_density(given)
         route, resistance = given.block("route"), given.block("resistance")
         length = _whole_length(route) if route else None
@@ -464,6 +443,20 @@ def _no_motor_there(given: Given) -> Iterator[Conflict]:
         if isinstance(brake, dict) and (brake.get("at"), brake.get("shaft")) == ("tail", "motor"):
             reason = "no drive is at the tail, and so no motor shaft"
             yield Conflict(("brakes", name, "shaft"), reason, "write `shaft: drum`, or `at: head`")
+
+
+def _moving_tail(given: Given) -> Iterator[Conflict]:
+    """A tail pulley on the carriage of a take-up has no drive, and its weight follows the waves of the belt."""
+    takeup, drives = given.block("takeup"), given.raw.get("drives")
+    if takeup is None or (takeup.word("type"), takeup.word("at")) != ("gravity", "tail"):
+        return
+    placed = list(drives.values()) if isinstance(drives, dict) else []
+    if any(isinstance(drive, dict) and drive.get("at") == "tail" for drive in placed):
+        yield Conflict(("takeup", "at"), "a driven tail pulley is no take-up pulley", "write `at: head`")
+    effects = given.raw.get("effects")
+    if isinstance(effects, dict) and effects.get("belt_wave") in ("off", False):
+        reason = "a take-up at the tail is only computed with the waves of the belt"
+        yield Conflict(("effects", "belt_wave"), reason, "delete `belt_wave`, or write `at: head` under `takeup`")
 
 
 def _without_curves(given: Given) -> Iterator[Conflict]:

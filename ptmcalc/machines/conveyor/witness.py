@@ -294,13 +294,15 @@ def cost(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: i
 def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """Whether there is a motion to simulate.
 
-        n, rounds of a wave in the time of the scene: at 1000 simulating it takes a minute
+        n, rounds of a wave in the time of the scene: at 1000 simulating it takes a minute;   1 for a weight at the tail
 
-    **Range** any scene in motion.
+    **Range** any scene in motion, a take-up weight at the head or none.
     **Error** exact.
     **Source** as `solvers.network`.
     """
     case = moving(spec, scene)
+    if case.line.weight_at_tail:
+        return Criterion("tail", 1.0, 1.0, "a take-up weight at the tail is not in the elements", "the file")
     if case.window <= 0:
         return Criterion("W/F", 1.0, 1.0, "static resistance / drive force: the belt does not move", "Newton")
     rounds = case.window / case.line.contour_time

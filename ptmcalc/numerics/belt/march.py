@@ -232,11 +232,11 @@ class _March:
         pulls = self.doubled[1 - now], self.doubled[1 - then]  # the start has a row of its own
         tops, bottoms = self.highest / 2 + course.climb_within, self.lowest / 2 + course.climb_within
         back, carry = slice(0, course.tail), slice(course.tail, course.cells)
-        top = Track(head, len(self.head.drums))
+        top, low = Track(head, len(self.head.drums)), Track(tail, len(self.tail.drums))
         return Drawn(
             times=np.arange(k + 1, dtype=np.float64) * step,
             head=top,
-            tail=Track(tail, len(self.tail.drums)),
+            tail=low,
             back_max=self._extreme(tops, self.highest_at, back, 1),
             back_min=self._extreme(bottoms, self.lowest_at, back, -1),
             carry_max=self._extreme(tops, self.highest_at, carry, 1),
@@ -249,7 +249,9 @@ class _March:
             lowest=bottoms,
             lows=lows,
             longest_way=self._longest(),
-            row=_row(course, (self.head, top), self.tail, (pulls, (self.speeds[now], self.speeds[then])), self.give),
+            row=_row(
+                course, (self.head, top), (self.tail, low), (pulls, (self.speeds[now], self.speeds[then])), self.give
+            ),
             lost_grip=state.ended == compiled.LOST_GRIP,
         )
 
@@ -271,27 +273,36 @@ class _March:
 def _row(
     course: Course,
     head: tuple[Station, Track],
-    low: Station,
+    tail: tuple[Station, Track],
     rows: tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]],
     give: Give | None,
 ) -> Row:
     """The belt at the end as a row of masses, its rates by differences over the last step; `rows` are twice the
-    tensions and the speeds, of the last step and of the one before."""
-    (top, track), step = head, course.step
+    tensions and the speeds, of the last step and of the one before. A take-up at the tail cuts the row there."""
+    (top, track), (low, lows), step = head, tail, course.step
     (doubled, doubled_then), inside = rows
+    cut, drum = course.tail if low.takeup else 0, course.cells
 
     def speeds(back: int) -> FloatArray:
         seen = track[-min(back, len(track))]
-        return np.concatenate([[seen.behind], inside[back - 1], [seen.belt]])
+        found = np.concatenate([[seen.behind], inside[back - 1], [seen.belt]])
+        if not cut:
+            return found
+        there = lows[-min(back, len(lows))]
+        found[cut] = there.belt
+        return np.append(found, there.behind)
 
     masses = (course.before + course.after) / 2 * step
-    masses[0], masses[-1] = course.after[0] / 2 * step, course.before[-1] / 2 * step
+    masses[0], masses[drum] = course.after[0] / 2 * step, course.before[-1] / 2 * step
     compliances = step / course.cell_impedance
     if give:
         compliances[1:] += give.compliance / 2
         compliances[:-1] += give.compliance / 2
     masses[0] += top.takeup.mass / 4 if top.takeup else 0.0
-    held = [-1] if top.takeup else [0, -1]
+    held, tie = [drum] if top.takeup else [0, drum], 0.0
+    if cut:
+        masses[cut] = course.before[cut] / 2 * step
+        masses, tie = np.append(masses, course.after[cut] / 2 * step), (low.takeup.mass if low.takeup else 0.0) / 4
     if not low.imposes:
         masses[course.tail] += sum(drum.mass for drum in low.drums)
     else:
@@ -300,7 +311,9 @@ def _row(
     moving = masses.copy()
     moving[held] = 0.0
     if not top.imposes:
-        moving[-1] = masses[-1] + sum(drum.mass for drum in top.drums)
+        moving[drum] = masses[drum] + sum(drum.mass for drum in top.drums)
     rate_energy = float(compliances @ pulls**2 + moving @ rates**2) / 2
+    rate_energy += tie * float(rates[cut] - rates[-1]) ** 2 / 2
     last = speeds(1)
-    return Row(masses, compliances, last - last[-1], doubled / 2 + course.climb_within, tuple(held), rate_energy)
+    pull = doubled / 2 + course.climb_within
+    return Row(masses, compliances, last - last[drum], pull, tuple(held), rate_energy, cut, tie)

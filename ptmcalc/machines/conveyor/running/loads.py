@@ -161,6 +161,8 @@ def fillings(spec: Conveyor, scene: Run) -> Fillings:
         more = full.tail_pull - empty.tail_pull
         pulled = full.static_resistance - empty.static_resistance + more
         everywhere = everywhere - (more / pulled if pulled else 0.0) * (pulls + everywhere)
+    if full.weight_at_tail:  # half of what the load adds at the tail pulley lowers the tension before it
+        everywhere = everywhere / 2
     marks, whole = np.array(full.carry.marks), full.carry.length
     if full.fixed_length:
         rest = np.diff(marks) / 2 + whole - marks[1:]

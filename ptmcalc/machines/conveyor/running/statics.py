@@ -43,11 +43,12 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
 
         S(s) = S_off + integral of (resistance + gradient) ds;   S_on = S_off + W
 
-    S_off is the take-up tension (gravity take-up), or the value for which the mean tension of the loop is the mounting
-    tension (fixed take-up: the total elongation of the belt is constant). Several drives share W by the curves of their
-    motors (`load_sharing.steady_forces`); without curves, in proportion to their mean starting torques.
+    S_off is the take-up tension (gravity take-up at the head), the one for which the mean of both sides of the tail
+    pulley is the take-up tension (gravity take-up at the tail), or the value for which the mean tension of the loop is
+    the mounting tension (fixed take-up: the total elongation of the belt is constant). Several drives share W by the
+    curves of their motors (`load_sharing.steady_forces`); without curves, in proportion to their mean starting torques.
 
-    **Range** the take-up after the head pulleys; friction independent of speed.
+    **Range** the take-up after the head pulleys or at the tail; friction independent of speed.
     **Error** exact for that model: a sum of the given resistances.
     **Source** ISO 5048:1989; DIN 22101; mean tension of a fixed loop derived from constant elongation.
     """

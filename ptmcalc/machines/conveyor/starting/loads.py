@@ -51,7 +51,7 @@ def start_loads(spec: Conveyor, scene: Start, case: StartCase) -> dict[str, Foun
     """What the file gives enough for."""
     found: dict[str, float] = {}
     left = spec.checks.start_residual is not None and scene.profile.rise_time > 0 and case.moves
-    if scene.profile.ripple is not None or left:
+    if not case.line.weight_at_tail and (scene.profile.ripple is not None or left):
         frequencies = natural_frequencies(case.masses, spec.takeup_weight)
         if scene.profile.ripple is not None:
             turns = np.array(frequencies) / (2 * math.pi)
@@ -200,7 +200,7 @@ def allowed_acceleration(spec: Conveyor, scene: Start) -> float | None:
     line = case.line
     even = all(len(set(strand.masses)) == 1 for strand in (line.carry, line.back))
     unusual = scene.aborted is not None or scene.belt == "relaxed" or scene.profile.shape == "curve"
-    if unusual or not even or len(spec.all_drives) > 1 or spec.takeup_weight:
+    if unusual or not even or len(spec.all_drives) > 1 or spec.takeup_weight or line.weight_at_tail:
         return None
     phases = case.phases(lowest_frequency(case))
     allowed = math.inf

@@ -45,7 +45,8 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads["start_time"] = loads["start_time_rigid"]
     if len(spec.all_drives) == 1:
         loads |= _of_the_drive(next(iter(spec.all_drives)), loads)
-    for number, frequency in enumerate(natural_frequencies(case.masses, spec.takeup_weight), 1):
+    loop = () if case.line.weight_at_tail else natural_frequencies(case.masses, spec.takeup_weight)
+    for number, frequency in enumerate(loop, 1):
         loads[of("natural_frequency", str(number))] = frequency
     window = (0.0, case.held + case.window)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}

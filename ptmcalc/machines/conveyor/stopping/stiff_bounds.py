@@ -211,6 +211,8 @@ def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     if not plain or spec.resistance.speed_share > 0:
         return None
     line = running(spec, scene)
+    if line.weight_at_tail or (spec.takeup.budgeted and not line.fixed_length):
+        return None
     if not (line.carry.even and line.back.even) or math.isinf(rigid_stop(spec, scene, line)[0]):
         return None
     masses = loop_masses(line, imposed=False)

@@ -13,7 +13,7 @@ from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.load_sharing import shares_at
-from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS
+from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS, TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, grips, starting_force
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.numerics.free_waves import Row, swings
@@ -82,8 +82,10 @@ def still_to_come(spec: Conveyor, line: BeltLine, end: Ending, loads: Mapping[st
         if kind in SLIPS:
             used = after.loads.get("slip_utilisation_max" + name[len(kind) :], math.inf)
             offset = Interval(0.0, math.inf if end.slips or used >= 1 else 0.0)
-        elif kind == "takeup_movement":
-            offset = Interval(0.0, max(after.way, 2 * after.way - found.estimate.high))
+        elif kind in ("takeup_movement", TAKEUP_TOTAL):
+            offset = Interval(0.0, max(after.way, 2 * after.way - loads["takeup_movement"].estimate.high))
+        elif kind in TAKEUP_CLEARANCES:
+            offset = Interval(-after.way, 0.0)
         elif name not in after.loads:
             continue
         elif kind in _FALL:
@@ -116,11 +118,11 @@ class _After:
             for strand, part in zip(_STRANDS, parts, strict=True):
                 ends = np.cumsum(end.row.compliances)[[part.start - 1, (part.stop or 0) - 1]] * [part.start > 0, 1]
                 swing[strand] = np.interp(_X, (cells[part] - ends[0]) / (ends[1] - ends[0]), found.pulls[part])
-            self.way = float(found.ways[0])
+            self.way = found.way_of_weight(end.row)
             if end.tail in end.row.held:
                 own = end.row.compliances[end.tail :]
                 offset = float(own @ end.row.pulls[end.tail :]) / float(own.sum())
-        if not line.fixed_length and not spec.takeup_weight:
+        if line.keeps_run_off and not spec.takeup_weight:
             swing[RETURN, 0] = 0.0
         even[CARRY] += offset
         self.even, self.least, self.most = even, even - swing, even + swing
@@ -205,7 +207,7 @@ class _After:
         if self.swings is None:
             return math.inf
         springs = {self._spring(first): weights[0], self._spring(last): weights[1]}
-        if not self.line.fixed_length and not self.spec.takeup_weight:
+        if self.line.keeps_run_off and not self.spec.takeup_weight:
             springs = {spring: weight for spring, weight in springs.items() if spring > 0}  # its tension is kept
         even = weights[0] * self.even[first] + weights[1] * self.even[last]
         return float(even) + self.swings.together(springs)

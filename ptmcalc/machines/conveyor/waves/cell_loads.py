@@ -13,7 +13,9 @@ from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, starting_force
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Start
+from ptmcalc.machines.conveyor.takeup.travel import moved
 from ptmcalc.machines.conveyor.waves.cells import Set
+from ptmcalc.machines.conveyor.waves.takeup_stops import sinking
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn
 from ptmcalc.numerics.belt.station import Station, Track
@@ -87,9 +89,9 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
         values["slip_utilisation_max"] = max(used, key=lambda one: one[0])
         values["slip_reserve_min"] = min(left, key=lambda one: one[0])
     if not line.fixed_length:
-        apart = belt - (head.behind - head.creep)
-        way = np.concatenate([[0.0], np.cumsum((apart[1:] + apart[:-1]) / 2)]) * step / 2
+        way = sinking(case, drawn)
         values["takeup_movement"] = float(way.max() - way.min()), {}
+        values |= {name: (value, {}) for name, value in moved(case.spec, way).items()}
     if case.brings_to_rest:
         values |= _rest(case, belt, drawn.times)
         values |= _longest_way(case, drawn, values)

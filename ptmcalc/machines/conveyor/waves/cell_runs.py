@@ -76,7 +76,7 @@ _KEPT = Kept[tuple[Drawn, Set, int]](lambda made: len(made[0].times))
 def _causes(case: Moving) -> tuple[object, ...]:
     """All that the motion of a belt depends on."""
     spec, line = case.spec, replace(case.line, breaking_force=None, slack_sag=0.0)
-    parts = spec.all_drives, spec.brakes, spec.backstop, spec.takeup, spec.tail_drum, spec.belt.damping
+    parts = spec.all_drives, spec.brakes, spec.backstop, spec.takeup_weight, spec.tail_drum, spec.belt.damping
     return line, case.scene, case.speed, case.window, *parts
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.brakes import Braking, brakes_of, braking
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_force, drive_masses
 from ptmcalc.machines.conveyor.motion import Moving
@@ -86,7 +87,7 @@ def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
     takeup = None
     if not line.fixed_length:
         mass = spec.takeup_weight if "takeup_mass" in carried else 0.0
-        takeup = TakeUp(line.takeup_tension, mass)
+        takeup = TakeUp(line.static_ends(CARRY if line.weight_at_tail else RETURN)[0], mass)
     pulled = {"head": 0.0, "tail": 0.0}
     if isinstance(case.scene, Start):
         pulled["head"] = float(tension[-1] + course.climb[-1]) - float(tension[0])
@@ -94,14 +95,14 @@ def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
     head = Station(
         at_head,
         _drums(case, carried, "head", times, pulled["head"]),
-        takeup,
+        None if line.weight_at_tail else takeup,
         _imposed(case, "head", times),
         _shares(spec, "head"),
     )
     tail = Station(
         at_tail,
         _drums(case, carried, "tail", times, pulled["tail"]),
-        None,
+        takeup if line.weight_at_tail else None,
         _imposed(case, "tail", times),
         _shares(spec, "tail"),
     )
@@ -146,7 +147,8 @@ def _tensions(case: Moving, course: Course) -> FloatArray:
     line = case.line
     if case.begins_loose:
         if not line.fixed_length:
-            return np.full(course.cells, line.takeup_tension)
+            above = float(course.climb[course.tail]) if line.weight_at_tail else 0.0
+            return np.full(course.cells, line.takeup_tension - above)
         lengths = np.diff(course.places)
         mean = float(course.climb_within @ lengths) / float(lengths.sum())
         return np.full(course.cells, line.takeup_tension - mean)

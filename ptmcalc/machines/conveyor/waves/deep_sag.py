@@ -14,7 +14,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, family
 from ptmcalc.laws import sag
 from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS
+from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS, TAKEUP_CLEARANCES
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Start
 from ptmcalc.numerics.belt.march import Drawn, Extreme
@@ -30,6 +30,7 @@ _FALLING = frozenset(
         "slip_reserve_min",
         "belt_safety_min",
         "starting_reserve",
+        *TAKEUP_CLEARANCES,
     }
 )
 """Families of loads that only come down as time goes on; all others only go up."""
@@ -67,7 +68,7 @@ def certain(case: Moving, whole: Mapping[str, Found], early: Mapping[str, Found]
     A stop or a jam begins with even running: its loads are at least as bad as there.
     """
     even = {} if isinstance(case.scene, Start) else tension_loads.even_loads(case.line)
-    kept = not case.line.fixed_length and not case.spec.takeup_weight  # a tension that the take-up keeps
+    kept = case.line.keeps_run_off and not case.spec.takeup_weight  # a tension that the take-up keeps
     found = {}
     for name, one in whole.items():
         value, begins = one.estimate.value, even.get(name)

@@ -17,6 +17,7 @@ from ptmcalc.machines.conveyor.loads import (
     LOWEST,
     OF_STOP,
     SLIPS,
+    TAKEUP_WAYS,
     TENSIONS,
     WAYS_OF_STOP,
 )
@@ -110,7 +111,7 @@ def moved(
         ds <= change L_loop/EA        dt <= 2 change/(Z |a|),   a the `slowing` of the rigid body [m/s^2]
     """
     found: dict[str, Interval] = {}
-    fixed = line.fixed_length or off
+    fixed = off or not line.keeps_run_off
     most = max(change.largest, change.smallest)
     stretch = most * (line.back.length + line.carry.length) / line.stiffness
     least = min(line.impedance(RETURN), line.impedance(CARRY))
@@ -148,7 +149,7 @@ def moved(
             found[name] = moved_sag(line, loads, change.smallest)
         elif kind in DRIVE and asked:
             found[name] = moved_drive(loads, 2 * asked * most)[kind]
-        elif kind in WAYS_OF_STOP or kind == "takeup_movement":
+        elif kind in WAYS_OF_STOP or kind in TAKEUP_WAYS:
             found[name] = Interval(-stretch, stretch)
         elif kind == "stop_time":
             found[name] = Interval(-delay, delay)

@@ -19,7 +19,7 @@ from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.plain_start import delay_lines_do
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Start
 from ptmcalc.machines.conveyor.start_case import start_case
-from ptmcalc.machines.conveyor.waves import deep_sag, start_enclosure, start_intervals
+from ptmcalc.machines.conveyor.waves import deep_sag, start_enclosure, start_intervals, tail_pulley, takeup_stops
 from ptmcalc.machines.conveyor.waves.after_start import MODES, Ending, ending, still_to_come
 from ptmcalc.machines.conveyor.waves.cell_histories import events_of, findings_of, histories
 from ptmcalc.machines.conveyor.waves.cell_runs import (
@@ -57,6 +57,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     except GripLostError as lost:
         return _before(case, carried, level, lost)
     drawn, ready = runs[-1].drawn, runs[-1].ready
+    loads = tail_pulley.widened(case, drawn, loads)
     slipping = slips_on(case, drawn)
     findings, slack = list(findings_of(case, drawn)), list[Failure]()
     if "sag" in carried and deep_sag.too_deep(case, drawn):
@@ -66,9 +67,14 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
-    failures, end = (*failures_of(case, drawn, ready), *slack), _ending(case, runs, slipping)
+    failures, end = (
+        (*failures_of(case, drawn, ready), *slack, *takeup_stops.failures(case, drawn, loads)),
+        _ending(case, runs, slipping),
+    )
     if unfinished(case, drawn):
         loads = loads_so_far(case, loads, [one.drawn for one in runs])
+    later = still_to_come(spec, case.line, end, loads) if end else {}
+    stopped, at_stop = takeup_stops.contact(case, drawn, loads, later)
     return Result(
         loads,
         work=sum(part.work for part in runs),
@@ -78,8 +84,8 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         events=tuple(events_of(drawn, ready)),
         histories=lambda: histories(case, drawn, ready),
         failures=failures,
-        beyond=still_to_come(spec, case.line, end, loads) if end else {},
-        open_end=end.state if end else open_end(case, drawn),
+        beyond=later | stopped,
+        open_end=at_stop or (end.state if end else open_end(case, drawn)),
     )
 
 

@@ -55,7 +55,7 @@ def time_to_rest(case: Moving, drawn: Drawn) -> float:
 def _force_of_grip(case: Moving, drawn: Drawn, speed: float) -> float | None:
     """Force that slows a belt down which slips on the only pulley at the head [N]; None where that is not known."""
     line, slips = case.line, drawn.head[-1].slips
-    if line.fixed_length or line.grip_exponent is None or len(slips) != 1 or not slips[0]:
+    if not line.keeps_run_off or line.grip_exponent is None or len(slips) != 1 or not slips[0]:
         return None
     tight = line.takeup_tension - line.belt_line_mass * speed**2
     acting = brakes_of(case.spec, case.scene).values()

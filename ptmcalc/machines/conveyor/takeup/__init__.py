@@ -1,0 +1,1 @@
+"""Take-up: travel over all scenes, and the stops of its weight."""
