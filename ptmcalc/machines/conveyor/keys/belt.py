@@ -16,6 +16,7 @@ from ptmcalc.spec.fields import (
     Measure,
     PositiveDensity,
     PositiveForce,
+    PositiveFraction,
     PositiveLength,
     PositiveLineForce,
     PositiveLineMass,
@@ -28,6 +29,18 @@ from ptmcalc.spec.shape import Also
 
 TroughAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(75))]
 SurchargeAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(45))]
+
+
+class Splice(Fragment):
+    """The splices of the belt, by DIN 22101:2011."""
+
+    reference_strength: Annotated[PositiveFraction | None, Assumed()] = None
+    """k_t,rel, reference fatigue strength of the splice / rated strength of the belt (DIN 22110-3); assumed when left
+    out: 0.45 for steel cord, 0.325 for textile"""
+    conditions: Literal["good", "normal", "poor"] = "normal"
+    """splicing conditions: S_0 of 1.0, 1.1 or 1.2"""
+    life: Literal["short", "normal", "long"] = "normal"
+    """expected life and consequences of a failure: S_1 of 1.5, 1.7 or 1.9"""
 
 
 class Belt(Fragment):
@@ -47,6 +60,8 @@ class Belt(Fragment):
     """rated strength per width, e.g. `1600 N/mm` for an ST 1600"""
     carcass: Literal["textile", "steel_cord"] | None = None
     """carcass type; determines the default safety factors"""
+    splice: Splice | None = None
+    """splices; with them the strength is also verified by DIN 22101:2011"""
     damping: Damping | None = None
     """internal damping; an undamped belt when left out, with the longest oscillation"""
     minimum_drum_diameter: Annotated[PositiveLength | None, Limit(), Also("minimum_pulley_diameter")] = None
@@ -144,6 +159,8 @@ class Load(Fragment):
     """bulk density; with it the cross-section of the load is checked"""
     surcharge_angle: Annotated[SurchargeAngle | None, Assumed()] = None
     """slope of the moving material at the edges of its bed; 15 deg is assumed when it is left out"""
+    section_edition: Literal["iso_5048", "din_22101", "cema"] = "iso_5048"
+    """cross-section: parabola (`iso_5048`), equivalent slope (`din_22101`), arc and standard edge distance (`cema`)"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -65,7 +65,7 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     loads |= tension_loads.derived_loads(line, number(tensions[high]), lows)
     loads |= _of_drives(spec, line)
     loads |= _of_running(spec, scene, line, places, tensions)
-    loads |= static_loads(spec, scene, line)
+    loads |= static_loads(spec, scene, line, number(tensions[high]))
     at = {"tension_max": {"position": number(places[high])}, "tension_min": {"position": number(places[low])}}
     found = {name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}
 
