@@ -11,7 +11,8 @@ from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
 from ptmcalc.machines.conveyor.model import load_line_mass
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Start, Stop, Stopping
+from ptmcalc.machines.conveyor.running.idlers import rolls, rolls_of_a_set
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Run, Start, Stop, Stopping
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
@@ -189,6 +190,42 @@ _OF_THE_SPLICE: Assumption[Conveyor] = Assumption(
     Use(loads=frozenset({"belt_tension_width_max", "tension_max"})),
 )
 
+_SHARES = {3: (0.675, 0.65, 0.70), 2: (0.5, 0.5, 0.55)}
+"""Share of the load of an idler set on its most loaded roll by the number of rolls, and its interval [1]. Three rolls:
+0.65 to 0.7 on the centre roll; two: half, up to 10 % more of an eccentric load, an engineering choice. A larger value
+shortens the bearing life."""
+
+
+_OF_THE_ROLLS = Use(frozenset({Run}), frozenset({"roll_load_max", "bearing_life"}))
+"""Loads that depend on the load of a roll."""
+
+
+def _of_the_rolls(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
+    """Load of the most loaded roll of each strand."""
+    for strand in rolls(spec):
+        if (count := rolls_of_a_set(spec, strand)) in _SHARES:
+            yield _load_share(strand, *_SHARES[count])
+        yield Assumption(
+            ("idlers", strand, "roll", "dynamic_factor"),
+            units.RATIO,
+            lambda spec: 1.2,
+            lambda spec: Interval(1.1, 1.3),
+            "handbooks of idler manufacturers: 1.1 to 1.3 by belt speed and lump size",
+            _OF_THE_ROLLS,
+        )
+
+
+def _load_share(strand: str, usual: float, least: float, most: float) -> Assumption[Conveyor]:
+    return Assumption(
+        ("idlers", strand, "roll", "load_share"),
+        units.RATIO,
+        lambda spec: usual,
+        lambda spec: Interval(least, most),
+        "handbooks of idler manufacturers: 0.65 to 0.7 on the centre roll of three, half on each of two",
+        _OF_THE_ROLLS,
+    )
+
+
 _OF_THE_LOAD: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "cema", "flexure"),
@@ -230,6 +267,7 @@ def assumptions(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
     yield from _OF_STANDSTILL
     yield from _OF_THE_LOAD
     yield _OF_THE_SPLICE
+    yield from _of_the_rolls(spec)
     yield from _rubbing(spec)
     for name, drive in spec.all_drives.items():
         yield from _of_a_drive(spec.drive_path(name), drive)

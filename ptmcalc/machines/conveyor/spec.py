@@ -29,6 +29,7 @@ from ptmcalc.spec.fields import (
     PositiveSpeed,
     PositiveTime,
     PositiveTorque,
+    RunningTime,
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
@@ -154,6 +155,8 @@ class ConveyorChecks(CheckSettings):
     """maximum sag ratio h/a of the return strand, in steady running; 2 % is usual"""
     sag_transient: Annotated[PositiveRatio | None, Limit()] = None
     """maximum sag ratio h/a of the belt during starts and stops; 3 % is usual"""
+    idler_life: Annotated[RunningTime | None, Limit()] = None
+    """required rating life L10h of the idler bearings; 30000 h to 60000 h is usual"""
     slack_sag: Annotated[PositiveRatio, Limit()] = DEEPEST
     """sag ratio at which the belt counts as slack, in every scene"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None

@@ -9,11 +9,13 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.machines.conveyor.keys.damping import Damping
 from ptmcalc.spec.fields import (
+    FactorFromOne,
     Length,
     LineMass,
     Mass,
     MassFlow,
     Measure,
+    PositiveAngularSpeed,
     PositiveDensity,
     PositiveForce,
     PositiveFraction,
@@ -89,6 +91,21 @@ class Belt(Fragment):
             yield Conflict(("warp",), reason, "delete `warp`, or correct `carcass`")
 
 
+class IdlerRoll(Fragment):
+    """A roll of an idler set."""
+
+    diameter: PositiveLength
+    """outer diameter of the roll"""
+    rated_speed: Annotated[PositiveAngularSpeed | None, Limit()] = None
+    """maximum rotational speed by the manufacturer; 600 to 750 rpm is usual"""
+    dynamic_load_rating: Annotated[PositiveForce | None, Checked()] = None
+    """C of one of its two bearings; needed to check the bearing life"""
+    load_share: Annotated[PositiveFraction | None, Assumed()] = None
+    """share of the set load on the most loaded roll; assumed 0.675 of three rolls, 0.5 of two; 1 of a single one"""
+    dynamic_factor: Annotated[FactorFromOne | None, Assumed()] = None
+    """dynamic factor of belt and load that pass the idler; 1.2 is assumed when left out"""
+
+
 class IdlerRow(Fragment):
     """The idlers of one strand."""
 
@@ -100,6 +117,8 @@ class IdlerRow(Fragment):
     """rotating mass of one idler set, reduced to the roll surface"""
     line_mass: Annotated[LineMass | None, OneOf("set_mass")] = None
     """rotating mass per length, or give `set_mass` and `pitch`"""
+    roll: IdlerRoll | None = None
+    """its rolls; for roll speed, roll load and bearing life"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

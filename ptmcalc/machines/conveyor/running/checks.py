@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from functools import partial
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, only
 from ptmcalc.machines.conveyor.governing_keys import TENSION, blame_tension, takeup_tension
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs, strength_key
+from ptmcalc.machines.conveyor.running.limits import given
 from ptmcalc.machines.conveyor.running.loads import limited_strands
 from ptmcalc.machines.conveyor.spec import (
     ANY_MOTION,
@@ -91,11 +91,7 @@ def _strand_checks(spec: Conveyor, scene: Run) -> Checks:
     for strand in limited_strands(spec):
         limit: float = spec.value_at(("checks", f"sag_{strand}"))
         pitch: KeyPath = ("idlers", strand, "pitch")
-        yield STRAND_SAG.of(strand, partial(_exactly, limit), TENSION, (pitch,), TENSION)
-
-
-def _exactly(limit: float, spec: Conveyor, scene: Run) -> Estimate:
-    return Estimate.exact(limit)
+        yield STRAND_SAG.of(strand, given(limit), TENSION, (pitch,), TENSION)
 
 
 STRAND_SAG: Check[Conveyor, Run] = Check(

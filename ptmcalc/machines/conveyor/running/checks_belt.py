@@ -1,7 +1,7 @@
 """Checks of what lies on the belt, and of what drums, transitions and vertical curves ask of it."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
@@ -11,6 +11,7 @@ from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import breaking_force
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs
+from ptmcalc.machines.conveyor.running.limits import given
 from ptmcalc.machines.conveyor.running.loads import bent, has_drum_data
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Run
 from ptmcalc.numerics.lanes import value
@@ -78,11 +79,7 @@ def _drum_checks(spec: Conveyor, scene: Run) -> Checks:
     """One for each drive, where the file says what the belt bears."""
     for name, drive in spec.all_drives.items() if has_drum_data(spec) else ():
         key = (*spec.drive_path(name), "drum", "diameter")
-        yield DRUM.of(name, _given(drive.drum.diameter), key, repair=key)
-
-
-def _given(limit: float) -> Callable[[Conveyor, ConveyorScene], Estimate]:
-    return lambda spec, scene: Estimate.exact(limit)
+        yield DRUM.of(name, given(drive.drum.diameter), key, repair=key)
 
 
 DRUM: Check[Conveyor, Run] = Check(
@@ -239,7 +236,7 @@ def _lift_off(spec: Conveyor, curve: Curve) -> float:
 def _lift_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
     for curve in spec.route.hollows:
         key = curve_key(curve)
-        yield LIFT.of(str(curve.number), _given(_lift_off(spec, curve)), key, repair=key)
+        yield LIFT.of(str(curve.number), given(_lift_off(spec, curve)), key, repair=key)
 
 
 LIFT: Check[Conveyor, ConveyorScene] = Check(

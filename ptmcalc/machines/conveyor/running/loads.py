@@ -15,6 +15,7 @@ from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
 from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.running.idlers import ROLL_LOADS, roll_loads, rolls
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import number, value
 
@@ -30,6 +31,7 @@ STATIC_LOADS = (
     LoadInfo("fibre_tension_min", "belt fibre tension per width, minimum", units.LINE_FORCE, headline=False),
     LoadInfo("belt_tension_width_max", "belt tension per width with edges, maximum", units.LINE_FORCE, headline=False),
     LoadInfo("sag_strand_max", "belt sag ratio h/a, maximum", units.SHARE, headline=False),
+    *ROLL_LOADS,
 )
 """Loads besides those of `loads.LOADS`, the most of them once for each part of the machine."""
 
@@ -48,6 +50,7 @@ def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
         "fibre_tension_max": across,
         "fibre_tension_min": across,
         "sag_strand_max": limited_strands(spec),
+        **{info.name: list(rolls(spec)) for info in ROLL_LOADS},
     }
     for info in STATIC_LOADS:
         if info.name in elements:
@@ -58,7 +61,7 @@ def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
 
 def static_loads(spec: Conveyor, scene: Run, line: BeltLine, highest: float) -> dict[str, float]:
     """What the file gives enough for; `highest` is the maximum tension of the belt [N]."""
-    found = _fill(spec) | _drums(spec) | _sags(spec, line)
+    found = _fill(spec) | _drums(spec) | _sags(spec, line) | roll_loads(spec, line)
     if bent(spec):
         whatever = fillings(spec, scene)
         found |= _curves(spec, whatever) | _fibres(spec, whatever)

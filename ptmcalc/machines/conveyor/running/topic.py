@@ -7,6 +7,7 @@ from ptmcalc.machines.conveyor.loads import parts_of
 from ptmcalc.machines.conveyor.running.checks import SAG, SLACK, STRAND_SAG, STRENGTH, STROKE, TRANSIENT_SAG
 from ptmcalc.machines.conveyor.running.checks_belt import DRUM, FIBRE, FILL, LIFT, PRESSED
 from ptmcalc.machines.conveyor.running.checks_motor import RATING, RESERVE
+from ptmcalc.machines.conveyor.running.idlers import BEARING_LIFE, ROLL_SPEED
 from ptmcalc.machines.conveyor.running.loads import STATIC_LOADS, static_parts
 from ptmcalc.machines.conveyor.running.motor_torque import STEADY_DRIVE
 from ptmcalc.machines.conveyor.running.splice import SPLICE
@@ -44,6 +45,6 @@ RUNNING: Topic[Conveyor] = Topic(
     solvers=(STATICS, STEADY_DRIVE),
     checks=(
         *(STRENGTH, SAG, SLACK, STROKE, FILL, DRUM, FIBRE, PRESSED, LIFT, RESERVE, RATING),
-        *(SPLICE, STRAND_SAG, TRANSIENT_SAG),
+        *(SPLICE, STRAND_SAG, TRANSIENT_SAG, ROLL_SPEED, BEARING_LIFE),
     ),
 )
