@@ -54,11 +54,13 @@ FILL: Check[Conveyor, Run] = Check(
     repair=lambda spec, scene: _WIDTH,
     each=_fill_checks,
     what="The load cross-section carries the mass flow at the steepest point of the route. The filling ratio is at"
-    " most the limit.",
+    " most the limit. `load.section_edition` selects the cross-section of ISO 5048, DIN 22101 or CEMA.",
     why="An overfilled belt spills its load over the edges and at the loading point.",
     formula="Q/(rho v (S_2 + k S_1)) <= limit,   S_2 = (l + e cos(lambda)) e sin(lambda),\n"
     "S_1 = (l + 2 e cos(lambda))^2 tan(theta)/6,   e = (0.9 B - 0.05 m - l)/2,   k^2 = 1 - sin^2 delta/sin^2 theta\n"
-    "din_22101: tan(theta)/4;   cema: (theta - sin(theta) cos(theta))/(4 sin^2 theta), e = (0.89 B - 1.8 in - l)/2",
+    "S_1 = (l + 2 e cos(lambda))^2 tan(theta)/4   (DIN 22101)\n"
+    "S_1 = (l + 2 e cos(lambda))^2 (theta - sin(theta) cos(theta))/(4 sin^2 theta),   e = (0.89 B - 0.0457 m - l)/2"
+    "   (CEMA)",
     source="ISO 5048:1989; DIN 22101 (k); by `load.section_edition` DIN 22101:2011 or CEMA; k is applied to each",
 )
 

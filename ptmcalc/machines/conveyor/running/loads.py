@@ -37,6 +37,9 @@ STATIC_LOADS = (
 
 OF_STATICS = frozenset(info.name for info in STATIC_LOADS)
 
+OF_TENSION = frozenset({"belt_tension_width_max", "sag_strand_max", "roll_load_max", "bearing_life"})
+"""Those without a bound where the load sharing of drives at both ends is not known."""
+
 
 def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
     """Those of them that a conveyor has."""

@@ -119,7 +119,7 @@ SPLICE: Check[Conveyor, ConveyorScene] = Check(
     " largest tension per width times S_0 and S_1. The tension per width includes the edge addition in transitions and"
     " vertical curves. CNV102 verifies the safety factors of DIN 22101:1982.",
     why="The splice is the weakest part of a belt. Its fatigue limits the permissible tension.",
-    formula="k_N k_t_rel/(k_max S_0 S_1) >= 1,   k_max = max(S/W + (EA/W) eps)\n"
+    formula="k_N k_t,rel/(k_max S_0 S_1) >= 1,   k_max = max(S/W + (EA/W) eps)\n"
     "S_0 = 1.0 good, 1.1 normal, 1.2 poor splicing conditions;   S_1 = 1.5 short, 1.7 normal, 1.9 long life",
-    source="DIN 22101:2011 as quoted by belt manufacturers; k_t_rel by DIN 22110-3",
+    source="DIN 22101:2011 as quoted by belt manufacturers; k_t,rel by DIN 22110-3",
 )

@@ -16,7 +16,7 @@ from ptmcalc.machines.conveyor.drives import running, same_drives, share
 from ptmcalc.machines.conveyor.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.running.loads import OF_STATICS, static_loads
+from ptmcalc.machines.conveyor.running.loads import OF_STATICS, OF_TENSION, static_loads
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import exp, expm1, number, value
 
@@ -85,7 +85,7 @@ def _unshared(spec: Conveyor, found: Iterable[str]) -> dict[str, Interval]:
         return {}
     several = {one.at for one in drives} == {"head", "tail"}
     names = [name for name in found if family(name) in PER_DRIVE and ("[" in name or family(name) in GRIP)] + [
-        name for name in found if several and name in OF_BELT - set(GRIP)
+        name for name in found if several and family(name) in (OF_BELT | OF_TENSION) - set(GRIP)
     ]
     return {name: Interval(-math.inf, math.inf) for name in names}
 
