@@ -35,6 +35,11 @@ def rolls(spec: Conveyor) -> dict[str, tuple[IdlerRow, IdlerRoll]]:
     return {strand: (row, row.roll) for strand, row in rows.items() if row.roll is not None}
 
 
+def life_strands(spec: Conveyor) -> list[str]:
+    """Strands whose bearing life is a load; the carrying strand where a life is required and no roll is described."""
+    return list(rolls(spec)) or (["carry"] if spec.checks.idler_life is not None else [])
+
+
 def rolls_of_a_set(spec: Conveyor, strand: str) -> int:
     """Rolls of an idler set by its trough: three, or two without a centre roll; one of a flat strand."""
     trough = spec.idlers.carry.trough if strand == "carry" else None
@@ -147,7 +152,7 @@ def _life_checks(spec: Conveyor, scene: Run) -> Checks:
     """One for each strand with a roll, where the file requires a life; the carrying strand where none has one."""
     if spec.checks.idler_life is None:
         return
-    for strand in rolls(spec) or ("carry",):
+    for strand in life_strands(spec):
         key, pitch = _roll_path(strand, "dynamic_load_rating"), ("idlers", strand, "pitch")
         yield BEARING_LIFE.of(strand, _life_limit, key, (pitch, key), key)
 

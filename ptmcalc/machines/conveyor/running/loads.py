@@ -15,7 +15,7 @@ from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.running.idlers import ROLL_LOADS, roll_loads, rolls
+from ptmcalc.machines.conveyor.running.idlers import ROLL_LOADS, life_strands, roll_loads, rolls
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import number, value
 
@@ -54,6 +54,7 @@ def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
         "fibre_tension_min": across,
         "sag_strand_max": limited_strands(spec),
         **{info.name: list(rolls(spec)) for info in ROLL_LOADS},
+        "bearing_life": life_strands(spec),
     }
     for info in STATIC_LOADS:
         if info.name in elements:
