@@ -44,7 +44,7 @@ def _value(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Estimate:
     tension, splice = _tension_per_width(spec, scene, loads), spec.belt.splice
     assert splice is not None
     reserve, least, most = (_reserve(spec, splice, one) for one in (tension.value, tension.high, tension.low))
-    slope = reserve / tension.value if tension.value > 0 and math.isfinite(tension.value) else 0.0
+    slope = reserve / tension.value if 0.0 < tension.value < math.inf else 0.0
     return Estimate(reserve, least, most, tension.numerical * slope, tension.model * slope)
 
 
