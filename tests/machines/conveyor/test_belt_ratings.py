@@ -17,6 +17,8 @@ G = 9.81
 RIG = Rig(sections=((200.0, -4.0), (300.0, 22.0), (100.0, 1.0)), drives={"head": Drive(torque=4000.0)})
 TROUGH = {"angle": "35 deg", "middle_roll": "380 mm"}
 BELT = {"belt__width": "1000 mm", "belt__strength": "2000 N/mm", "belt__carcass": "steel_cord"}
+OPEN = {"conditions": "normal", "life": "normal"}
+SPLICE = OPEN | {"reference_strength": 0.45}
 ROW = {"carry": {"line_mass": "20 kg/m", "pitch": "1.2 m"}, "return": {"line_mass": "8 kg/m", "pitch": "3 m"}}
 
 
@@ -74,7 +76,7 @@ def test_the_reserve_of_the_splice_counts_the_edge_at_the_head() -> None:
 
 
 def test_a_flat_belt_has_the_tension_of_the_belt() -> None:
-    scene = ran(**BELT, belt__splice={"reference_strength": 0.45})
+    scene = ran(**BELT, belt__splice=SPLICE)
     assert value(scene, "belt_tension_width_max") == pytest.approx(max(tensions()), rel=1e-9)
 
 
@@ -82,7 +84,7 @@ def test_a_start_adds_the_edge_at_the_head_to_the_tension_entering_the_pulley() 
     """The belt has its maximum at the head: both ends of the bar are that tension with the same edge addition."""
     start = {"type": "start", "profile": {"shape": "ramp", "control": "torque", "time": "12 s"}}
     more = {"idlers__carry__trough": TROUGH, "transitions": {"head": {"length": "2 m"}}}
-    scene = ran(scene=start, **BELT, belt__splice={"reference_strength": 0.45}, **more)
+    scene = ran(scene=start, **BELT, belt__splice=SPLICE, **more)
     bar, judged = load_of(scene, "tension_max").estimate, check_of(scene, "CNV130").value
     addition = RIG.stiffness * edge_strain(2.0)
     assert judged is not None
@@ -99,7 +101,7 @@ def test_the_splice_of_a_belt_with_unknown_load_sharing_is_undecided() -> None:
         f"drives__{name}__motor__curve": curve | {"power": power, "speed": speed}
         for name, (power, speed) in plates.items()
     }
-    scene = ran(replace(RIG, drives=drives), **BELT, belt__splice={"reference_strength": 0.45}, **more)
+    scene = ran(replace(RIG, drives=drives), **BELT, belt__splice=SPLICE, **more)
     assert math.isinf(load_of(scene, "belt_tension_width_max").estimate.high)
     assert check_of(scene, "CNV130").verdict is Verdict.UNDECIDED
 
@@ -111,7 +113,7 @@ def test_an_omitted_reference_strength_is_evaluated_at_both_ends(carcass: str, e
     for needed, verdict in ((sum(ends) / 2, Verdict.UNDECIDED), (0.99 * ends[0], Verdict.PASS)):
         strength = most * 1.1 * 1.7 / needed
         scene = ran(
-            belt__width="1000 mm", belt__strength=f"{strength!r} N/m", belt__carcass=carcass, belt__splice={}
+            belt__width="1000 mm", belt__strength=f"{strength!r} N/m", belt__carcass=carcass, belt__splice=OPEN
         )  # fmt: skip
         assert check_of(scene, "CNV130").verdict is verdict
 

@@ -39,10 +39,10 @@ class Splice(Fragment):
     reference_strength: Annotated[PositiveFraction | None, Assumed()] = None
     """k_t,rel, reference fatigue strength of the splice / rated strength of the belt (DIN 22110-3); assumed when left
     out: 0.45 for steel cord, 0.325 for textile"""
-    conditions: Literal["good", "normal", "poor"] = "normal"
-    """splicing conditions: S_0 of 1.0, 1.1 or 1.2"""
-    life: Literal["short", "normal", "long"] = "normal"
-    """expected life and consequences of a failure: S_1 of 1.5, 1.7 or 1.9"""
+    conditions: Literal["normal", "good", "poor"]
+    """splicing conditions: S_0 of 1.1, 1.0 or 1.2"""
+    life: Literal["normal", "short", "long"]
+    """expected life and consequences of a failure: S_1 of 1.7, 1.5 or 1.9"""
 
 
 class Belt(Fragment):
