@@ -75,7 +75,7 @@ def conveyors() -> Iterator[tuple[str, Loaded]]:
     for seed in range(300, 308):
         machine = any_conveyor(seed) | {"scenes": [{"type": "run"}, {"type": "run", "name": "empty", "load": "empty"}]}
         yield f"seed {seed}", load_text(json.dumps(machine).encode(), "any")
-    for name in ("hollow_conveyor", "two_drive_conveyor"):
+    for name in ("hollow_conveyor", "two_drive_conveyor", "steel_cord_strength"):
         yield name, loaded_file(ROOT / "specs" / "conveyor" / f"{name}.yaml")
 
 

@@ -27,6 +27,7 @@ MOST_EVALUATIONS = {
     "reference/bw_02.yaml": 4_000_000,
     "conveyor/decline_conveyor.yaml": 4_000_000,
     "conveyor/hollow_conveyor.yaml": 18_000_000,
+    "conveyor/steel_cord_strength.yaml": 3_000_000,
     "conveyor/two_drive_conveyor.yaml": 19_000_000,
     "conveyor/screw_takeup_conveyor.yaml": 8_000_000,
     "conveyor/tail_takeup_conveyor.yaml": 3_000_000,

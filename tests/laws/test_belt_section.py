@@ -74,6 +74,42 @@ class TestSection:
         assert belt_section.slope_reduction(0.1, 0.0) == 0.0
 
 
+class TestEditions:
+    @pytest.mark.parametrize(
+        ("width", "roll", "trough", "surcharge"), [(1.2, 0.465, 35.0, 20.0), (0.8, 0.0, 20.0, 5.0)]
+    )
+    def test_outlines_by_quadrature(self, width: float, roll: float, trough: float, surcharge: float) -> None:
+        """DIN 22101: straight slopes that meet in the middle. CEMA: a circle that meets the edges under the angle."""
+        lam, theta = math.radians(trough), math.radians(surcharge)
+
+        def chord(b: float) -> float:
+            return roll + (b - roll) * math.cos(lam)
+
+        def triangle(x: float, w: float) -> float:
+            return (w / 2 - abs(x)) * math.tan(theta)
+
+        def arc(x: float, w: float) -> float:
+            radius = w / 2 / math.sin(theta)
+            return math.sqrt(radius**2 - x**2) - radius * math.cos(theta)
+
+        edges = {"din_22101": 0.9 * width - 0.05, "cema": width - 2 * (0.055 * width + 0.9 * 0.0254)}
+        for edition, top in (("din_22101", triangle), ("cema", arc)):
+            loaded_width, surcharge_section = belt_section.EDITIONS[edition]
+            b = float(loaded_width(width))
+            assert b == pytest.approx(edges[edition], rel=1e-12)
+            area, _ = integrate.quad(top, -chord(b) / 2, chord(b) / 2, args=(chord(b),), points=[0.0])
+            assert surcharge_section(b, roll, lam, theta) == pytest.approx(area, rel=1e-9)
+
+    def test_the_arc_of_a_small_angle(self) -> None:
+        """The series below 1e-3 rad continues the closed form, whose rounding is 1e-9 there: theta/6 per chord."""
+        for theta in (0.0, 1e-9, 0.999e-3, 1.001e-3):
+            area = belt_section.arc_surcharge_section(0.9, 0.9, 0.0, theta)
+            assert area == pytest.approx(0.81 * theta / 6 * (1 + 2 * theta**2 / 15), rel=1e-8, abs=1e-300)
+
+    def test_today_s_section_is_that_of_iso_5048(self) -> None:
+        assert belt_section.EDITIONS["iso_5048"] == (belt_section.usable_width, belt_section.surcharge_section)
+
+
 class TestFlow:
     def test_mass_goes_round(self) -> None:
         section, speed, density = 0.17, 3.2, 850.0

@@ -26,6 +26,7 @@ from ptmcalc.laws import (
     belt_modes,
     belt_resistance,
     belt_section,
+    belt_splice,
     bodies,
     brake,
     buffer,
@@ -45,6 +46,7 @@ from ptmcalc.laws import (
     gearing,
     hoist_class,
     hoisting,
+    idler_roll,
     inertia,
     lift_off,
     lift_off_standard,
@@ -424,6 +426,13 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     belt_section.usable_width: [(0.8,), (2.4,)],
     belt_section.water_section: [(0.9, 0.38, 0.6), (0.3, 0.38, 0.6)],
     belt_section.surcharge_section: [(0.9, 0.38, 0.6, 0.3), (0.3, 0.38, 0.6, 0.3)],
+    belt_section.triangle_surcharge_section: [(0.9, 0.38, 0.6, 0.3)],
+    belt_section.standard_edge_width: [(1.2,)],
+    belt_section.arc_surcharge_section: [(0.9, 0.38, 0.6, 0.3), (0.9, 0.38, 0.6, 1e-4)],
+    belt_splice.splice_reserve: [(2e6, 0.45, 4e5, 1.1, 1.7), (2e6, 0.45, 0.0, 1.1, 1.7)],
+    idler_roll.roll_speed: [(4.0, 0.133)],
+    idler_roll.roll_load: [(0.67, 1.5e3, 1.2, 400.0, 60.0)],
+    idler_roll.bearing_life: [(25e3, 2e3, 60.0)],
     belt_section.slope_reduction: [(0.1, 0.3), (0.4, 0.3)],
     belt_section.capacity: [(0.17, 3.2, 850.0)],
     belt_section.load_line_mass: [(300.0, 3.2)],
@@ -776,6 +785,7 @@ TABLES_IN_METRES = {
     resistance.length_factor,
     belt_resistance.secondary_resistance,
     belt_section.usable_width,
+    belt_section.standard_edge_width,
 }
 """Laws that are read from a table and know no other unit than its own."""
 IN_PRINTED_UNITS = {

@@ -14,7 +14,8 @@ from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
 from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.model import load_line_mass
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Start, Stop, Stopping
+from ptmcalc.machines.conveyor.running.idlers import rolls, rolls_of_a_set
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Run, Start, Stop, Stopping
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
@@ -103,7 +104,7 @@ def _stops(spec: Conveyor) -> bool:
 
 
 def _elongation(spec: Conveyor) -> float:
-    return _ELONGATION["steel_cord" if "steel_cord" in (spec.belt.carcass, spec.belt.warp) else "textile"]
+    return _ELONGATION[_carcass(spec)]
 
 
 def _weight(spec: Conveyor) -> float | None:
@@ -221,6 +222,61 @@ _OF_THE_TAIL: tuple[Assumption[Conveyor], ...] = (
 )
 
 
+_FATIGUE = {"steel_cord": (0.45, 0.40, 0.50), "textile": (0.325, 0.30, 0.35)}
+"""Reference fatigue strength of the splice relative to the strength of the belt, and its interval [1]. Steel cord: 0.45
+is usual, 0.05 to either side an engineering choice; textile, stepped splices: 0.30 to 0.35. A larger value passes
+weaker belts; a wider interval leaves more verdicts undecided."""
+
+
+def _carcass(spec: Conveyor) -> str:
+    return "steel_cord" if "steel_cord" in (spec.belt.carcass, spec.belt.warp) else "textile"
+
+
+_OF_THE_SPLICE: Assumption[Conveyor] = Assumption(
+    ("belt", "splice", "reference_strength"),
+    units.RATIO,
+    lambda spec: _FATIGUE[_carcass(spec)][0] if spec.belt.splice is not None else None,
+    lambda spec: Interval(*_FATIGUE[_carcass(spec)][1:]),
+    "DIN 22101:2011 as quoted by belt manufacturers: 0.45 steel cord, 0.30 to 0.35 stepped textile splices",
+    Use(loads=frozenset({"belt_tension_width_max", "tension_max"})),
+)
+
+_SHARES = {3: (0.675, 0.65, 0.70), 2: (0.5, 0.5, 0.55)}
+"""Share of the load of an idler set on its most loaded roll by the number of rolls, and its interval [1]. Three rolls:
+0.65 to 0.7 on the centre roll; two: half, up to 10 % more of an eccentric load, an engineering choice. A larger value
+shortens the bearing life."""
+
+
+_OF_THE_ROLLS = Use(frozenset({Run}), frozenset({"roll_load_max", "bearing_life"}))
+"""Loads that depend on the load of a roll."""
+
+
+def _of_the_rolls(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
+    """Load of the most loaded roll of each strand."""
+    for strand in rolls(spec):
+        if (count := rolls_of_a_set(spec, strand)) in _SHARES:
+            yield _load_share(strand, *_SHARES[count])
+        yield Assumption(
+            ("idlers", strand, "roll", "dynamic_factor"),
+            units.RATIO,
+            lambda spec: 1.2,
+            lambda spec: Interval(1.1, 1.3),
+            "handbooks of idler manufacturers: 1.1 to 1.3 by belt speed and lump size",
+            _OF_THE_ROLLS,
+        )
+
+
+def _load_share(strand: str, usual: float, least: float, most: float) -> Assumption[Conveyor]:
+    return Assumption(
+        ("idlers", strand, "roll", "load_share"),
+        units.RATIO,
+        lambda spec: usual,
+        lambda spec: Interval(least, most),
+        "handbooks of idler manufacturers: 0.65 to 0.7 on the centre roll of three, half on each of two",
+        _OF_THE_ROLLS,
+    )
+
+
 _OF_THE_LOAD: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "cema", "flexure"),
@@ -261,6 +317,8 @@ def assumptions(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
         yield replace(assumed, source=f"{assumed.source}; the table ends at 2000 m") if beyond else assumed
     yield from _OF_STANDSTILL
     yield from _OF_THE_LOAD
+    yield _OF_THE_SPLICE
+    yield from _of_the_rolls(spec)
     yield from _rubbing(spec)
     for name, drive in spec.all_drives.items():
         yield from _of_a_drive(spec.drive_path(name), drive)

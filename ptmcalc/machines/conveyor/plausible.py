@@ -52,6 +52,8 @@ _OF_THE_BELT = (
     _Range(("idlers", "return", "set_mass"), units.MASS, 0.0, 500.0, "18 kg"),
     _Range(("idlers", "carry", "line_mass"), units.LINE_MASS, 0.0, 500.0, "18 kg/m"),
     _Range(("idlers", "return", "line_mass"), units.LINE_MASS, 0.0, 500.0, "6 kg/m"),
+    _Range(("idlers", "carry", "roll", "diameter"), units.LENGTH, 0.03, 0.5, "133 mm"),
+    _Range(("idlers", "return", "roll", "diameter"), units.LENGTH, 0.03, 0.5, "133 mm"),
     _Range(("load", "density"), units.DENSITY, 10.0, 10_000.0, "1600 kg/m^3"),
     _Range(("resistance", "coefficient"), units.RATIO, 0.003, 0.8, "0.022"),
     _Range(("resistance", "secondary"), units.RATIO, 1.0, 30.0, "1.4"),

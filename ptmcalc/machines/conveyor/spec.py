@@ -31,6 +31,7 @@ from ptmcalc.spec.fields import (
     PositiveSpeed,
     PositiveTime,
     PositiveTorque,
+    RunningTime,
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
@@ -172,6 +173,14 @@ class ConveyorChecks(CheckSettings):
     """breaking force / maximum tension during a start"""
     sag: Annotated[PositiveRatio, Limit()] = 0.01
     """maximum sag ratio h/a of the belt, in steady running"""
+    sag_carry: Annotated[PositiveRatio | None, Limit()] = None
+    """maximum sag ratio h/a of the carrying strand, in steady running; 0.5 to 1.5 % is usual"""
+    sag_return: Annotated[PositiveRatio | None, Limit()] = None
+    """maximum sag ratio h/a of the return strand, in steady running; 2 % is usual"""
+    sag_transient: Annotated[PositiveRatio | None, Limit()] = None
+    """maximum sag ratio h/a of the belt during starts and stops; 3 % is usual"""
+    idler_life: Annotated[RunningTime | None, Limit()] = None
+    """required rating life L10h of the idler bearings; 30000 h to 60000 h is usual"""
     slack_sag: Annotated[PositiveRatio, Limit()] = DEEPEST
     """sag ratio at which the belt counts as slack, in every scene"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None

@@ -9,13 +9,16 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.machines.conveyor.keys.damping import Damping
 from ptmcalc.spec.fields import (
+    FactorFromOne,
     Length,
     LineMass,
     Mass,
     MassFlow,
     Measure,
+    PositiveAngularSpeed,
     PositiveDensity,
     PositiveForce,
+    PositiveFraction,
     PositiveLength,
     PositiveLineForce,
     PositiveLineMass,
@@ -28,6 +31,18 @@ from ptmcalc.spec.shape import Also
 
 TroughAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(75))]
 SurchargeAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(45))]
+
+
+class Splice(Fragment):
+    """The splices of the belt, by DIN 22101:2011."""
+
+    reference_strength: Annotated[PositiveFraction | None, Assumed()] = None
+    """k_t,rel, reference fatigue strength of the splice / rated strength of the belt (DIN 22110-3); assumed when left
+    out: 0.45 for steel cord, 0.325 for textile"""
+    conditions: Literal["normal", "good", "poor"]
+    """splicing conditions: S_0 of 1.1, 1.0 or 1.2"""
+    life: Literal["normal", "short", "long"]
+    """expected life and consequences of a failure: S_1 of 1.7, 1.5 or 1.9"""
 
 
 class Belt(Fragment):
@@ -47,6 +62,8 @@ class Belt(Fragment):
     """rated strength per width, e.g. `1600 N/mm` for an ST 1600"""
     carcass: Literal["textile", "steel_cord"] | None = None
     """carcass type; determines the default safety factors"""
+    splice: Splice | None = None
+    """splices; with them the strength is also verified by DIN 22101:2011"""
     damping: Damping | None = None
     """internal damping; an undamped belt when left out, with the longest oscillation"""
     minimum_drum_diameter: Annotated[PositiveLength | None, Limit(), Also("minimum_pulley_diameter")] = None
@@ -74,6 +91,21 @@ class Belt(Fragment):
             yield Conflict(("warp",), reason, "delete `warp`, or correct `carcass`")
 
 
+class IdlerRoll(Fragment):
+    """A roll of an idler set."""
+
+    diameter: PositiveLength
+    """outer diameter of the roll"""
+    rated_speed: Annotated[PositiveAngularSpeed | None, Limit()] = None
+    """maximum rotational speed by the manufacturer; 600 to 750 rpm is usual"""
+    dynamic_load_rating: Annotated[PositiveForce | None, Checked()] = None
+    """C of one of its two bearings; needed to check the bearing life"""
+    load_share: Annotated[PositiveFraction | None, Assumed()] = None
+    """share of the set load on the most loaded roll; assumed 0.675 of three rolls, 0.5 of two; 1 of a single one"""
+    dynamic_factor: Annotated[FactorFromOne | None, Assumed()] = None
+    """dynamic factor of belt and load that pass the idler; 1.2 is assumed when left out"""
+
+
 class IdlerRow(Fragment):
     """The idlers of one strand."""
 
@@ -85,6 +117,8 @@ class IdlerRow(Fragment):
     """rotating mass of one idler set, reduced to the roll surface"""
     line_mass: Annotated[LineMass | None, OneOf("set_mass")] = None
     """rotating mass per length, or give `set_mass` and `pitch`"""
+    roll: IdlerRoll | None = None
+    """its rolls; for roll speed, roll load and bearing life"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -144,6 +178,8 @@ class Load(Fragment):
     """bulk density; with it the cross-section of the load is checked"""
     surcharge_angle: Annotated[SurchargeAngle | None, Assumed()] = None
     """slope of the moving material at the edges of its bed; 15 deg is assumed when it is left out"""
+    section_edition: Literal["iso_5048", "din_22101", "cema"] = "iso_5048"
+    """cross-section: parabola (`iso_5048`), equivalent slope (`din_22101`), arc and standard edge distance (`cema`)"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -6,12 +6,16 @@ from collections.abc import Iterable, Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, only
-from ptmcalc.machines.conveyor.governing_keys import blame_tension, takeup_tension
+from ptmcalc.machines.conveyor.governing_keys import TENSION, blame_tension, takeup_tension
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs, strength_key
+from ptmcalc.machines.conveyor.running.limits import given
+from ptmcalc.machines.conveyor.running.loads import limited_strands
 from ptmcalc.machines.conveyor.spec import (
     ANY_MOTION,
+    IN_MOTION,
     Conveyor,
     ConveyorScene,
+    Jam,
     Run,
 )
 
@@ -68,6 +72,78 @@ SAG: Check[Conveyor, Run] = Check(
     why="Excessive sag spills the load, flexes the load at every idler and increases the power demand.",
     formula="w l/(8 S_min) <= limit",
     source="DIN 22101: at most 1 % in steady running",
+)
+
+
+def _strand_limit(spec: Conveyor, scene: Run) -> Estimate:
+    """Permissible sag ratio h/a of the strand, of the file.
+
+    **Range** steady running.
+    **Error** none: a chosen limit.
+    **Source** the file; usual: 0.5 to 1.5 % of the loaded carrying strand, 2 % of the return strand.
+    """
+    given = [limit for limit in (spec.checks.sag_carry, spec.checks.sag_return) if limit is not None]
+    return Estimate.exact(min(given, default=math.inf))
+
+
+def _strand_checks(spec: Conveyor, scene: Run) -> Checks:
+    """One for each strand whose limit the file gives."""
+    for strand in limited_strands(spec):
+        limit: float = spec.value_at(("checks", f"sag_{strand}"))
+        pitch: KeyPath = ("idlers", strand, "pitch")
+        yield STRAND_SAG.of(strand, given(limit), TENSION, (pitch,), TENSION)
+
+
+STRAND_SAG: Check[Conveyor, Run] = Check(
+    code="CNV131",
+    title="belt sag of one strand, steady running",
+    question="Is the sag ratio of the carrying or return strand within its own limit in steady running?",
+    failure="strand sags too much between the idlers",
+    scenes=frozenset({Run}),
+    loads=("sag_strand_max",),
+    sense=Sense.AT_MOST,
+    limit=_strand_limit,
+    needs=no_needs,
+    blame=blame_tension,
+    repair=takeup_tension,
+    each=_strand_checks,
+    what="In steady running, the sag ratio of the strand between any two idlers is at most the limit of that strand."
+    " CNV103 compares both strands with one limit.",
+    why="The loaded carrying strand spills material at a sag that the empty return strand withstands.",
+    formula="w l/(8 S_min) <= limit of the strand",
+    source="DIN 22101: at most 1 % in steady running; limits of the file",
+)
+
+
+def _transient_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
+    """Permissible sag ratio h/a in a start or stop, of the file.
+
+    **Range** starts and stops; larger than in steady running for a short time.
+    **Error** none: a chosen limit.
+    **Source** the file; 3 % is usual.
+    """
+    limit = spec.checks.sag_transient
+    return Estimate.exact(math.inf if limit is None else limit)
+
+
+TRANSIENT_SAG: Check[Conveyor, ConveyorScene] = only(lambda spec, scene: spec.checks.sag_transient is not None)(
+    Check(
+        code="CNV132",
+        title="belt sag between idlers, start or stop",
+        question="Is the belt sag ratio within its limit during a start or stop?",
+        failure="belt sags too much between the idlers",
+        scenes=IN_MOTION - {Jam},
+        loads=("sag_relative_max",),
+        sense=Sense.AT_MOST,
+        limit=_transient_limit,
+        needs=_idler_pitches,
+        blame=blame_tension,
+        repair=takeup_tension,
+        what="During a start or stop, the sag ratio of the belt between any two idlers is at most the limit.",
+        why="A relief wave lets the belt sag and spills the load.",
+        formula="w l/(8 S_min) <= limit",
+        source="DIN 22101 permits a larger sag in transient states; limit of the file",
+    )
 )
 
 

@@ -1,7 +1,7 @@
 """Checks of what lies on the belt, and of what drums, transitions and vertical curves ask of it."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
@@ -11,6 +11,7 @@ from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import breaking_force
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs
+from ptmcalc.machines.conveyor.running.limits import given
 from ptmcalc.machines.conveyor.running.loads import bent, has_drum_data
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Run
 from ptmcalc.numerics.lanes import value
@@ -53,11 +54,14 @@ FILL: Check[Conveyor, Run] = Check(
     repair=lambda spec, scene: _WIDTH,
     each=_fill_checks,
     what="The load cross-section carries the mass flow at the steepest point of the route. The filling ratio is at"
-    " most the limit.",
+    " most the limit. `load.section_edition` selects the cross-section of ISO 5048, DIN 22101 or CEMA.",
     why="An overfilled belt spills its load over the edges and at the loading point.",
     formula="Q/(rho v (S_2 + k S_1)) <= limit,   S_2 = (l + e cos(lambda)) e sin(lambda),\n"
-    "S_1 = (l + 2 e cos(lambda))^2 tan(theta)/6,   e = (0.9 B - 0.05 m - l)/2,   k^2 = 1 - sin^2 delta/sin^2 theta",
-    source="ISO 5048:1989; DIN 22101 (k)",
+    "S_1 = (l + 2 e cos(lambda))^2 tan(theta)/6,   e = (0.9 B - 0.05 m - l)/2,   k^2 = 1 - sin^2 delta/sin^2 theta\n"
+    "S_1 = (l + 2 e cos(lambda))^2 tan(theta)/4   (DIN 22101)\n"
+    "S_1 = (l + 2 e cos(lambda))^2 (theta - sin(theta) cos(theta))/(4 sin^2 theta),   e = (0.89 B - 0.0457 m - l)/2"
+    "   (CEMA)",
+    source="ISO 5048:1989; DIN 22101 (k); by `load.section_edition` DIN 22101:2011 or CEMA; k is applied to each",
 )
 
 # -- drums ----------------------------------------------------------------------------------------------------------
@@ -77,11 +81,7 @@ def _drum_checks(spec: Conveyor, scene: Run) -> Checks:
     """One for each drive, where the file says what the belt bears."""
     for name, drive in spec.all_drives.items() if has_drum_data(spec) else ():
         key = (*spec.drive_path(name), "drum", "diameter")
-        yield DRUM.of(name, _given(drive.drum.diameter), key, repair=key)
-
-
-def _given(limit: float) -> Callable[[Conveyor, ConveyorScene], Estimate]:
-    return lambda spec, scene: Estimate.exact(limit)
+        yield DRUM.of(name, given(drive.drum.diameter), key, repair=key)
 
 
 DRUM: Check[Conveyor, Run] = Check(
@@ -238,7 +238,7 @@ def _lift_off(spec: Conveyor, curve: Curve) -> float:
 def _lift_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
     for curve in spec.route.hollows:
         key = curve_key(curve)
-        yield LIFT.of(str(curve.number), _given(_lift_off(spec, curve)), key, repair=key)
+        yield LIFT.of(str(curve.number), given(_lift_off(spec, curve)), key, repair=key)
 
 
 LIFT: Check[Conveyor, ConveyorScene] = Check(

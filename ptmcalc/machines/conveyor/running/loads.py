@@ -7,7 +7,7 @@ from typing import cast
 import numpy as np
 
 from ptmcalc.base import units
-from ptmcalc.contract.result import LoadInfo, of
+from ptmcalc.contract.result import LoadInfo, family, of
 from ptmcalc.laws import belt_section, sag, vertical_curve
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.drives import running
@@ -15,6 +15,7 @@ from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
 from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.running.idlers import ROLL_LOADS, life_strands, roll_loads, rolls
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import number, value
 
@@ -28,10 +29,16 @@ STATIC_LOADS = (
     LoadInfo("tension_curve_max", "belt tension in concave curve, maximum", units.FORCE, headline=False),
     LoadInfo("fibre_tension_max", "belt fibre tension per width, maximum", units.LINE_FORCE, headline=False),
     LoadInfo("fibre_tension_min", "belt fibre tension per width, minimum", units.LINE_FORCE, headline=False),
+    LoadInfo("belt_tension_width_max", "belt tension per width with edges, maximum", units.LINE_FORCE, headline=False),
+    LoadInfo("sag_strand_max", "belt sag ratio h/a, maximum", units.SHARE, headline=False),
+    *ROLL_LOADS,
 )
 """Loads besides those of `loads.LOADS`, the most of them once for each part of the machine."""
 
 OF_STATICS = frozenset(info.name for info in STATIC_LOADS)
+
+OF_TENSION = frozenset({"belt_tension_width_max", "sag_strand_max", "roll_load_max", "bearing_life"})
+"""Those without a bound where the load sharing of drives at both ends is not known."""
 
 
 def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
@@ -45,6 +52,9 @@ def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
         "tension_curve_max": [str(curve.number) for curve in spec.route.hollows],
         "fibre_tension_max": across,
         "fibre_tension_min": across,
+        "sag_strand_max": limited_strands(spec),
+        **{info.name: list(rolls(spec)) for info in ROLL_LOADS},
+        "bearing_life": life_strands(spec),
     }
     for info in STATIC_LOADS:
         if info.name in elements:
@@ -53,12 +63,15 @@ def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
             yield info
 
 
-def static_loads(spec: Conveyor, scene: Run, line: BeltLine) -> dict[str, float]:
-    """What the file gives enough for."""
-    found = _fill(spec) | _drums(spec) | _sags(spec, line)
+def static_loads(spec: Conveyor, scene: Run, line: BeltLine, highest: float) -> dict[str, float]:
+    """What the file gives enough for; `highest` is the maximum tension of the belt [N]."""
+    found = _fill(spec) | _drums(spec) | _sags(spec, line) | roll_loads(spec, line)
     if bent(spec):
         whatever = fillings(spec, scene)
         found |= _curves(spec, whatever) | _fibres(spec, whatever)
+    if spec.belt.splice is not None and spec.belt.width is not None:
+        fibres = [tension for name, tension in found.items() if family(name) == "fibre_tension_max"]
+        found["belt_tension_width_max"] = max([highest / spec.belt.width, *fibres])
     return found
 
 
@@ -70,10 +83,11 @@ def _fill(spec: Conveyor) -> dict[str, float]:
     load, trough, width = spec.load, spec.idlers.carry.trough, spec.belt.width
     if load.density is None or trough is None or width is None:
         return {}
-    bed = value(belt_section.usable_width, width), trough.middle_roll, trough.angle
+    loaded_width, surcharge_section = belt_section.EDITIONS[load.section_edition]
+    bed = value(loaded_width, width), trough.middle_roll, trough.angle
     surcharge = filled(load.surcharge_angle)
     steepest = max(abs(part.slope) for part in spec.route.parts)
-    heaped = value(belt_section.surcharge_section, *bed, surcharge)
+    heaped = value(surcharge_section, *bed, surcharge)
     section = value(belt_section.water_section, *bed)
     section += heaped * value(belt_section.slope_reduction, steepest, surcharge)
     most = value(belt_section.capacity, section, spec.speed, load.density)
@@ -99,12 +113,18 @@ def _drums(spec: Conveyor) -> dict[str, float]:
 # -- sag, section by section ----------------------------------------------------------------------------------------
 
 
+def limited_strands(spec: Conveyor) -> list[str]:
+    """Strands with a sag limit of their own."""
+    limits = {"carry": spec.checks.sag_carry, "return": spec.checks.sag_return}
+    return [strand for strand, limit in limits.items() if limit is not None]
+
+
 def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
     """Sag of each section at the lower of its ends, where the sections are the file's own; and the largest of all."""
     found: dict[str, float] = {}
     ratios: list[FloatArray] = []
-    for name, which in (("sag_carry", CARRY), ("sag_return", RETURN)):
-        part = line.strand(which)
+    for strand, which in (("carry", CARRY), ("return", RETURN)):
+        name, part = f"sag_{strand}", line.strand(which)
         if not part.span_weights:
             continue
         ends = line.static_ends(which)[0] + part.rises
@@ -115,6 +135,8 @@ def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
         ratios.append(np.array(sags))
         if spec.route.sections is not None:
             found |= {of(name, str(number)): ratio for number, ratio in enumerate(sags, 1)}
+        if strand in limited_strands(spec):
+            found[of("sag_strand_max", strand)] = number(ratios[-1].max())
     if len(ratios) == 2:
         found["sag_relative_max"] = number(max(part.max() for part in ratios))
     return found
@@ -209,13 +231,13 @@ def _fibres(spec: Conveyor, loads: Fillings) -> dict[str, float]:
         return {}
     for name, place in bent(spec).items():
         least, most = loads.at(_places(spec, place, name))
-        more, less = _strains(spec, place)
+        more, less = strains(spec, place)
         found[of("fibre_tension_max", name)] = number(most.max() + stiffness * more) / width
         found[of("fibre_tension_min", name)] = number(least.min() - stiffness * less) / width
     return found
 
 
-def _strains(spec: Conveyor, place: Curve | Transition) -> tuple[float, float]:
+def strains(spec: Conveyor, place: Curve | Transition) -> tuple[float, float]:
     """How far the tightest fibre is above the mean strain, and the slackest below it."""
     trough, width = spec.idlers.carry.trough, filled(spec.belt.width)
     assert trough is not None

@@ -17,7 +17,7 @@ from ptmcalc.machines.conveyor.load_sharing import sharing_is_known, steady_forc
 from ptmcalc.machines.conveyor.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.running.loads import OF_STATICS, static_loads
+from ptmcalc.machines.conveyor.running.loads import OF_STATICS, OF_TENSION, static_loads
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import exp, expm1, number, value
 
@@ -68,7 +68,7 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     loads |= _of_drives(spec, line)
     loads |= _between_drives(spec, line, loads)
     loads |= _of_running(spec, scene, line, places, tensions)
-    loads |= static_loads(spec, scene, line)
+    loads |= static_loads(spec, scene, line, number(tensions[high]))
     at = {"tension_max": {"position": number(places[high])}, "tension_min": {"position": number(places[low])}}
     found = {name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}
 
@@ -88,7 +88,7 @@ def _unshared(spec: Conveyor, found: Iterable[str]) -> dict[str, Interval]:
     drives = spec.all_drives.values()
     several = {one.at for one in drives} == {"head", "tail"}
     names = [name for name in found if family(name) in PER_DRIVE and ("[" in name or family(name) in GRIP)] + [
-        name for name in found if several and name in OF_BELT - set(GRIP)
+        name for name in found if several and family(name) in (OF_BELT | OF_TENSION) - set(GRIP)
     ]
     return {name: Interval(-math.inf, math.inf) for name in names}
 

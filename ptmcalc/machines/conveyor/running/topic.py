@@ -4,11 +4,13 @@ from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
 from ptmcalc.machines.conveyor.loads import parts_of
-from ptmcalc.machines.conveyor.running.checks import SAG, SLACK, STRENGTH, STROKE
+from ptmcalc.machines.conveyor.running.checks import SAG, SLACK, STRAND_SAG, STRENGTH, STROKE, TRANSIENT_SAG
 from ptmcalc.machines.conveyor.running.checks_belt import DRUM, FIBRE, FILL, LIFT, PRESSED
 from ptmcalc.machines.conveyor.running.checks_motor import RATING, RESERVE
+from ptmcalc.machines.conveyor.running.idlers import BEARING_LIFE, ROLL_SPEED
 from ptmcalc.machines.conveyor.running.loads import STATIC_LOADS, static_parts
 from ptmcalc.machines.conveyor.running.motor_torque import STEADY_DRIVE
+from ptmcalc.machines.conveyor.running.splice import SPLICE
 from ptmcalc.machines.conveyor.running.statics import STATICS
 from ptmcalc.machines.conveyor.spec import Conveyor
 
@@ -41,5 +43,8 @@ RUNNING: Topic[Conveyor] = Topic(
     loads=(*LOADS, *STATIC_LOADS),
     parts=lambda spec: (*parts_of(LOADS, spec), *static_parts(spec)),
     solvers=(STATICS, STEADY_DRIVE),
-    checks=(STRENGTH, SAG, SLACK, STROKE, FILL, DRUM, FIBRE, PRESSED, LIFT, RESERVE, RATING),
+    checks=(
+        *(STRENGTH, SAG, SLACK, STROKE, FILL, DRUM, FIBRE, PRESSED, LIFT, RESERVE, RATING),
+        *(SPLICE, STRAND_SAG, TRANSIENT_SAG, ROLL_SPEED, BEARING_LIFE),
+    ),
 )
