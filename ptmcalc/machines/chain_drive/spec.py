@@ -16,6 +16,7 @@ from ptmcalc.machines.chain_drive.chain_data import (
     Sprocket,
     Wear,
     even,
+    pitch_of,
     teeth_of,
     wrong_size,
 )
@@ -262,7 +263,7 @@ class ChainDrive(MachineSpec):
         """Sprockets fit the chain; a start needs its motors, a stop its gear."""
         yield from super().conflicts(given)
         chain, driver, layout = (given.block(key) for key in ("chain", "sprocket", "layout"))
-        pitch = chain.number("pitch") if chain else None
+        pitch = pitch_of(chain)
         if driver is not None:
             yield from wrong_size(driver, pitch, ("sprocket",))
         if layout is not None and "type" in layout.raw:

@@ -79,7 +79,7 @@ def _blow(spec: ChainDrive) -> dict[str, float]:
 
 def _design_power(spec: ChainDrive, layout: TwoShafts) -> float:
     teeth = min(spec.sprocket.teeth, layout.driven.teeth)
-    rows = layout.strand_factor if layout.strand_factor is not None else ROWS[min(spec.chain.count, max(ROWS))]
+    rows = layout.strand_factor if layout.strand_factor is not None else ROWS[min(spec.chain.rows, max(ROWS))]
     factor = chain_selection.tooth_factor(teeth, layout.tooth_exponent)
     return chain_selection.design_power(useful_pull(spec) * spec.speed, filled(layout.service_factor), factor, rows)
 
