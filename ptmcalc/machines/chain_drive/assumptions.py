@@ -1,12 +1,14 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption, Use
+from ptmcalc.laws import chain_selection
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start, Stopping
 from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene
@@ -150,15 +152,50 @@ _MOVED: tuple[Assumption[ChainDrive], ...] = (
     ),
 )
 
-_OF_TWO_SHAFTS: tuple[Assumption[ChainDrive], ...] = (
-    Assumption(
-        ("layout", "service_factor"),
-        units.RATIO,
-        lambda spec: 1.4,
-        lambda spec: Interval(1.0, 2.1),
-        "ISO 10823: 1 for smooth to 2.1 for heavily shocked machines",
-    ),
+_SERVICE: Assumption[ChainDrive] = Assumption(
+    ("layout", "service_factor"),
+    units.RATIO,
+    lambda spec: 1.4,
+    lambda spec: Interval(1.0, 2.1),
+    "ISO 10823: 1 for smooth to 2.1 for heavily shocked machines",
 )
+
+
+def _of_two_shafts(layout: TwoShafts) -> Assumption[ChainDrive]:
+    """Application factor f_1, by the classes of the file where it gives them."""
+    if layout.service is None:
+        return _SERVICE
+    driver, machine = layout.service.driver, layout.service.machine
+    factor = chain_selection.application_factor(driver, machine)
+    return replace(
+        _SERVICE,
+        value=lambda spec: factor,
+        interval=lambda spec: Interval(factor, factor),
+        source=f"ISO 10823:2004: {driver} driver, driven machine {machine}",
+    )
+
+
+_SAG_SHARE = 0.5
+"""Change of the sag of the slack strand in service, relative to it [1]: 1 to 3 % of the span at a mean of 2 %, the
+usual range of chain drives. A larger value widens the error bars of the natural frequencies of the spans."""
+
+
+def _sag_in_service(spec: ChainDrive, layout: TwoShafts) -> Iterator[Assumption[ChainDrive]]:
+    """Ends of the sag, where the natural frequencies of the spans are checked."""
+    if spec.checks.span_resonance is None:
+        return
+    yield _sag_end("slack_sag_least", (1 - _SAG_SHARE) * layout.slack_sag)
+    yield _sag_end("slack_sag_most", (1 + _SAG_SHARE) * layout.slack_sag)
+
+
+def _sag_end(key: str, sag: float) -> Assumption[ChainDrive]:
+    return Assumption(
+        ("layout", key),
+        units.RATIO,
+        lambda spec: sag,
+        lambda spec: Interval(sag, sag),
+        "wear and tensioning change the sag of a slack strand by a half: 1 to 3 % at a mean of 2 %",
+    )
 
 
 def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
@@ -166,7 +203,11 @@ def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
     yield from _of_the_number(spec)
     yield from _OF_THE_CHAIN
     yield from _MOVED
-    yield from _OF_A_CONVEYOR if isinstance(spec.layout, ConveyorLayout) else _OF_TWO_SHAFTS
+    if isinstance(spec.layout, ConveyorLayout):
+        yield from _OF_A_CONVEYOR
+    else:
+        yield _of_two_shafts(spec.layout)
+        yield from _sag_in_service(spec, spec.layout)
     if spec.drive is not None:
         rotor, ratio = spec.drive.motor.inertia, spec.drive.gear.ratio
         yield Assumption(
