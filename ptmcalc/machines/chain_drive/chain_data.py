@@ -27,7 +27,7 @@ from ptmcalc.spec.fields import (
     PositiveTime,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
-from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
 
 PositiveWearRate = Annotated[float, Measure(units.WEAR_RATE, above=0, smallest=1e-24)]
 PositiveWearDepth = Annotated[float, Measure(units.WEAR_DEPTH, above=0, smallest=1e-30)]
@@ -79,17 +79,17 @@ class ChainData(Fragment):
 
     number: Annotated[str | None, Field(max_length=40, examples=["16B-1"])] = None
     """number of a roller chain of ISO 606, such as 16B-1, 16A-2 or ANSI 80; fills in what the keys below leave out"""
-    given_pitch: Annotated[PositiveLength | None, OneOf("number")] = Field(default=None, alias="pitch")
+    given_pitch: Annotated[PositiveLength | None, Assumed()] = Field(default=None, alias="pitch")
     """chain pitch"""
-    given_mass: Annotated[PositiveLineMass | None, OneOf("number")] = Field(default=None, alias="mass")
+    given_mass: Annotated[PositiveLineMass | None, Assumed()] = Field(default=None, alias="mass")
     """of one strand with its plates, flights or slats, without load"""
     count: Annotated[int, Field(ge=1, le=64, strict=True), Absent("one chain, as the file describes one")] = 1
     """parallel chains, or rows of a multiplex roller chain, in a strand"""
     unevenness: Annotated[FactorFromOne | None, Assumed()] = None
     """load of the most loaded parallel chain / mean load; 1.2 is assumed when left out, 1 for one chain"""
-    given_breaking_load: Annotated[PositiveForce | None, OneOf("number")] = Field(default=None, alias="breaking_load")
+    given_breaking_load: Annotated[PositiveForce | None, Assumed()] = Field(default=None, alias="breaking_load")
     """of one chain"""
-    stiffness: Annotated[PositiveForce | None, OneOf("section, number")] = None
+    stiffness: Annotated[PositiveForce | None, Assumed()] = None
     """tensile stiffness EA of one chain (force over strain), or give `section`"""
     section: Annotated[PositiveArea | None, OneOf("stiffness")] = None
     """minimum plate section of one chain; determines the stiffness with `modulus`, and the stresses"""
@@ -97,9 +97,9 @@ class ChainData(Fragment):
     """effective modulus of the built-up chain on `section`; 0.65 times that of steel is assumed when left out"""
     damping: Damping = Damping()
     """internal damping"""
-    pin_diameter: Annotated[PositiveLength | None, Checked()] = None
+    pin_diameter: Annotated[PositiveLength | None, Assumed()] = None
     """pin diameter; needed for pressure and wear"""
-    bush_length: Annotated[PositiveLength | None, Limit()] = None
+    bush_length: Annotated[PositiveLength | None, Assumed()] = None
     """bearing length of pin and bush, of all rows of a multiplex chain; needed for pressure"""
     strength: Annotated[PositiveStress | None, Limit()] = None
     """tensile strength of the plates; accounts for the mean stress in the fatigue check"""
