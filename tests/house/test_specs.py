@@ -37,6 +37,7 @@ MOST_EVALUATIONS = {
     "chain_drive.yaml": 100_000,
     "chain_drive/roller_drive.yaml": 10_000,
     "chain_drive/inclined_scraper.yaml": 100_000,
+    "chain_drive/roller_chain_by_number.yaml": 10_000,
     "hoist.yaml": 30_000,
     "hoist/crane_hoist_converter.yaml": 20_000,
     "hoist/crane_hoist_m5.yaml": 40_000,

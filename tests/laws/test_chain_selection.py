@@ -79,7 +79,15 @@ class TestForces:
     def test_power(self) -> None:
         assert chain_selection.tooth_factor(19, 1.08) == 1.0
         assert chain_selection.tooth_factor(17, 1.08) == pytest.approx(math.exp(1.08 * math.log(19 / 17)))
+        assert chain_selection.tooth_factor(17, 1.08, 17) == 1.0
+        assert chain_selection.tooth_factor(19, 1.08, 17) == pytest.approx(1 / chain_selection.tooth_factor(17, 1.08))
         assert chain_selection.design_power(9e3, 1.4, 1.1, 1.7) == pytest.approx(9e3 * 1.54 / 1.7)
+
+    def test_application_factors_rise_with_the_shocks(self) -> None:
+        """From 1 to 2.1 by equal steps of 0.4 for the machine, by 0.1 and 0.2 for the driver (ISO 10823:2004)."""
+        for driver, more in (("smooth", 0.0), ("slight", 0.1), ("moderate", 0.3)):
+            for machine, base in (("smooth", 1.0), ("moderate", 1.4), ("heavy", 1.8)):
+                assert chain_selection.application_factor(driver, machine) == pytest.approx(base + more)
 
     @pytest.mark.parametrize(
         ("pitch", "feet_per_minute", "kind"),

@@ -81,6 +81,7 @@ from ptmcalc.laws import (
     start_profile,
     stopping,
     strand_tension,
+    threadline,
     travel,
     two_mass,
     vertical_curve,
@@ -276,6 +277,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     similarity.distortions: MODELS,
     similarity.section_scales: [(0.1, 1.0, 0.02, 2e-4, 1e-3, 0.01, 2e-3)],
     similarity.self_weight_strain: [(7850.0, 9.81, 20.0, 2.1e11, 1.0)],
+    threadline.transverse_frequency: [(2.0, 0.9, 2.6, 2400.0, 1.2), (1.0, 0.9, 2.6, 0.0, 0.0)],
     two_mass.two_mass_frequency: [(1.2e6, 18e3, 5e3)],
     two_mass.takeup: [(18e3, 5e3, 1.2e6, p, 5e4, 0.25) for p in (2e4, 5e4, 8e4)] + [(18e3, 5e3, 1.2e6, 2e4, 5e4, 0.01)],
     two_mass.hanging_start_force: [(8e4, 5e4, 18e3, 5e3)],
@@ -546,7 +548,8 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     chain_start.passing_bound: [
         (np.array([30.0, 90.0]), np.array([0.02, 1.3]), 1.2, 0.3, 0.32, 8, passes) for passes in (1.0, 40.0, math.inf)
     ],
-    chain_selection.tooth_factor: [(17, 1.08)],
+    chain_selection.application_factor: [("smooth", "heavy"), ("moderate", "smooth")],
+    chain_selection.tooth_factor: [(17, 1.08, 19)],
     chain_selection.design_power: [(9e3, 1.4, 1.1, 1.7)],
     chain_selection.chain_pitches: [(0.7, 0.019, 19, 57)],
     chain_selection.even_pitches: [(113.2,)],

@@ -9,6 +9,7 @@ from support.command import ptmcalc
 from support.machines import changed
 
 from ptmcalc.base.diagnostic import Diagnostic
+from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.spec import Run, Start
@@ -234,3 +235,86 @@ class TestWhatIsLeftOut:
         data = changed(CH_05, drive=MOTOR, scenes=[{"type": "start"}, {"type": "stop"}])
         paths = {one.path[-1] for one in load_text(yaml.safe_dump(data).encode(), "case.yaml").assumed}
         assert {"start_factor", "stop_factor"} <= paths
+
+
+NUMBERED = changed(ROLLER, chain={"number": "16B-2", "damping": {"law": "hysteretic", "ratio": 0.04}})
+"""The roller drive by the number of its chain."""
+
+
+class TestNumberOfAChain:
+    def test_what_the_number_fills_in(self) -> None:
+        loaded = load_text(yaml.safe_dump(NUMBERED).encode(), "case.yaml")
+        chain = loaded.spec.chain  # type: ignore[union-attr]
+        assert (chain.pitch, chain.breaking_load, chain.rows, chain.count) == (25.4e-3, 106e3, 2, 1)
+        assert chain.bush_length == pytest.approx(2 * 25.45e-3)
+        assumed = {one.path[-1]: one for one in loaded.assumed}
+        assert assumed["mass"].interval.width > 0
+        assert assumed["pitch"].interval.width == 0
+        assert "16B-2" in assumed["breaking_load"].source
+        assert {"pitch", "mass", "breaking_load", "pin_diameter", "bush_length", "stiffness", "unevenness"} <= set(
+            assumed
+        )
+
+    def test_keys_next_to_it_override(self) -> None:
+        own = changed(NUMBERED, chain__mass="6 kg/m", chain__breaking_load="120 kN", chain__stiffness="11 MN")
+        loaded = load_text(yaml.safe_dump(own).encode(), "case.yaml")
+        chain = loaded.spec.chain  # type: ignore[union-attr]
+        assert (chain.mass, chain.breaking_load, chain.stiffness, chain.pitch) == (6.0, 120e3, 11e6, 25.4e-3)
+        assert not {"mass", "breaking_load", "stiffness"} & {one.path[-1] for one in loaded.assumed}
+
+    def test_parallel_chains_of_a_number(self) -> None:
+        loaded = load_text(yaml.safe_dump(changed(NUMBERED, chain__count=2)).encode(), "case.yaml")
+        chain = loaded.spec.chain  # type: ignore[union-attr]
+        assert (chain.rows, chain.mass, chain.breaking_load) == (4, pytest.approx(2 * 5.292), 106e3)
+
+    def test_a_number_and_the_same_sizes_give_the_same_loads(self) -> None:
+        """A chain of one row by its number, and by the values of the table."""
+        by_hand = {"pitch": "25.4 mm", "mass": "2.646 kg/m", "breaking_load": "60 kN", "stiffness": "7.8 MN"}
+        by_hand |= {
+            "pin_diameter": "8.28 mm",
+            "bush_length": "25.45 mm",
+            "damping": {"law": "hysteretic", "ratio": 0.04},
+        }
+        found = []
+        for chain in ({"number": "16B-1", "damping": by_hand["damping"]}, by_hand):
+            loaded = load_text(yaml.safe_dump(changed(ROLLER, chain=chain)).encode(), "case.yaml")
+            (scene,) = check(loaded, Options()).scenes
+            found.append({one.info.name: one.estimate.value for one in scene.loads})
+        assert found[0].keys() == found[1].keys()
+        for name, value in found[0].items():
+            assert value == pytest.approx(found[1][name], rel=1e-9, nan_ok=True), name
+
+    @pytest.mark.parametrize(("number", "near"), [("17B-1", "16B-1"), ("16B-4", "16B-3"), ("ANSI 85", "80-1")])
+    def test_an_unknown_number(self, number: str, near: str) -> None:
+        found = faulty(changed(NUMBERED, chain__number=number), "chain", "number")
+        assert f"`{number}`" in found.message
+        assert f"number: {near}" in found.hint
+        assert not problems(changed(NUMBERED, chain__number=near))
+
+    def test_a_number_without_quotes_that_is_no_text(self) -> None:
+        assert "number: 16B-1" in faulty(changed(NUMBERED, chain__number=80), "chain", "number").hint
+
+    def test_neither_number_nor_pitch(self) -> None:
+        found = faulty(changed(ROLLER, chain__pitch=None), "chain")
+        assert "`pitch` is missing" in found.message
+        assert "`number`" in found.message
+
+    def test_sprockets_fit_the_pitch_of_the_number(self) -> None:
+        wrong = changed(NUMBERED, sprocket__diameter="20 mm")
+        assert "a pitch of 25.4 mm is not smaller" in faulty(wrong, "sprocket", "diameter").message
+
+
+class TestRatingAndSpans:
+    def test_service_and_service_factor(self) -> None:
+        both = changed(ROLLER, layout__service={"driver": "smooth", "machine": "heavy"})
+        assert "not both" in faulty(both, "layout", "service_factor").message
+
+    def test_spans_of_a_conveyor(self) -> None:
+        found = faulty(changed(CH_05, checks={"span_resonance": {}}), "checks", "span_resonance")
+        assert "supported" in found.message
+
+    def test_sag_in_service(self) -> None:
+        less = changed(ROLLER, layout__slack_sag="1 %", layout__slack_sag_most="0.5 %")
+        assert "smaller than `slack_sag`" in faulty(less, "layout", "slack_sag_most").message
+        more = changed(ROLLER, layout__slack_sag="1 %", layout__slack_sag_least="2 %")
+        assert "larger than `slack_sag`" in faulty(more, "layout", "slack_sag_least").message

@@ -16,6 +16,7 @@ from ptmcalc.machines.chain_drive.polygon.topic import POLYGON
 from ptmcalc.machines.chain_drive.relations import RELATIONS
 from ptmcalc.machines.chain_drive.running.topic import RUNNING
 from ptmcalc.machines.chain_drive.selection.topic import SELECTION
+from ptmcalc.machines.chain_drive.spans.topic import SPANS
 from ptmcalc.machines.chain_drive.spec import ChainDrive
 from ptmcalc.machines.chain_drive.speed_change.topic import SPEED_CHANGE
 from ptmcalc.machines.chain_drive.starting.topic import STARTING
@@ -87,7 +88,7 @@ def _of_two_shafts(spec: ChainDrive, layout: TwoShafts) -> Iterator[Finding]:
         )
 
 
-TOPICS = (RUNNING, SELECTION, POLYGON, STARTING, SPEED_CHANGE, STOPPING)
+TOPICS = (RUNNING, SELECTION, POLYGON, SPANS, STARTING, SPEED_CHANGE, STOPPING)
 
 KIND = MachineKind(
     name="chain_drive",

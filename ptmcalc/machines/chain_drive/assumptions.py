@@ -1,13 +1,15 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
+from ptmcalc.laws import chain_selection
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import drive_of, filled
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start, Stopping
 from ptmcalc.numerics.harmonic.parts import ZENER
@@ -31,6 +33,47 @@ def _has(spec: ChainDrive, *types: type[Scene]) -> bool:
     return any(isinstance(scene, types) for scene in spec.all_scenes)
 
 
+_STIFFNESS = (130.0, 80.0, 240.0)
+"""Tensile stiffness EA of a standard chain relative to its breaking load [1]: middle and ends. Plates that break at 700
+to 1000 MPa on their section, with an effective modulus of 0.4 to 0.8 of that of steel. A larger value raises the
+natural frequencies, with its square root."""
+_BUSH = 0.03
+"""Error of the bearing length of a standard chain, which one table alone states [1]. The bearing pressure is inversely
+proportional to the length."""
+
+
+def _of_the_number(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
+    """What the number of a roller chain stands for."""
+    chain = spec.chain.standard
+    if chain is None:
+        return
+    count, title = spec.chain.count, chain.title
+
+    def between(
+        key: str, quantity: units.Quantity, ends: tuple[float, float, float], source: str
+    ) -> Assumption[ChainDrive]:
+        value, low, high = ends
+        stated = f"{title}: {source}"
+        return Assumption(("chain", key), quantity, lambda spec: value, lambda spec: Interval(low, high), stated)
+
+    def exactly(key: str, quantity: units.Quantity, value: float, source: str) -> Assumption[ChainDrive]:
+        return between(key, quantity, (value, value, value), source)
+
+    yield exactly("pitch", units.LENGTH, chain.pitch, "ISO 606")
+    yield exactly("breaking_load", units.FORCE, chain.breaking_load, f"minimum tensile strength, {chain.edition}")
+    yield exactly("pin_diameter", units.LENGTH, chain.pin_diameter, "largest pin diameter, ISO 606")
+    mass = (count * chain.mass, count * chain.mass_low, count * chain.mass_high)
+    yield between("mass", units.LINE_MASS, mass, "range of manufacturers; the standard does not fix it")
+    length = chain.pin_length
+    ends = (length, length * (1 - _BUSH), length * (1 + _BUSH))
+    yield between("bush_length", units.LENGTH, ends, "width over the inner link, all rows; from one table")
+    if spec.chain.section is None:
+        strength = spec.chain.given_breaking_load or chain.breaking_load
+        middle, low, high = (share * strength for share in _STIFFNESS)
+        source = "80 to 240 times the breaking load, from the section of the plates; measure it"
+        yield between("stiffness", units.FORCE, (middle, low, high), source)
+
+
 _OF_THE_CHAIN: tuple[Assumption[ChainDrive], ...] = (
     Assumption(
         ("chain", "modulus"),
@@ -50,7 +93,7 @@ _OF_THE_CHAIN: tuple[Assumption[ChainDrive], ...] = (
     Assumption(
         ("chain", "unevenness"),
         units.RATIO,
-        lambda spec: 1.2 if spec.chain.count > 1 else None,
+        lambda spec: 1.2 if spec.chain.rows > 1 else None,
         lambda spec: Interval(1.1, 1.25),
         "load distribution factor of parallel chains 1.1 to 1.25",
     ),
@@ -111,24 +154,64 @@ _MOVED: tuple[Assumption[ChainDrive], ...] = (
     ),
 )
 
-_OF_TWO_SHAFTS: tuple[Assumption[ChainDrive], ...] = (
-    Assumption(
-        ("layout", "service_factor"),
-        units.RATIO,
-        lambda spec: 1.4,
-        lambda spec: Interval(1.0, 2.1),
-        "ISO 10823: 1 for smooth to 2.1 for heavily shocked machines",
-    ),
+_SERVICE: Assumption[ChainDrive] = Assumption(
+    ("layout", "service_factor"),
+    units.RATIO,
+    lambda spec: 1.4,
+    lambda spec: Interval(1.0, 2.1),
+    "ISO 10823: 1 for smooth to 2.1 for heavily shocked machines",
 )
+
+
+def _of_two_shafts(layout: TwoShafts) -> Assumption[ChainDrive]:
+    """Application factor f_1, by the classes of the file where it gives them."""
+    if layout.service is None:
+        return _SERVICE
+    driver, machine = layout.service.driver, layout.service.machine
+    factor = chain_selection.application_factor(driver, machine)
+    return replace(
+        _SERVICE,
+        value=lambda spec: factor,
+        interval=lambda spec: Interval(factor, factor),
+        source=f"ISO 10823:2004: {driver} driver, driven machine {machine}",
+    )
+
+
+_SAG_SHARE = 0.5
+"""Change of the sag of the slack strand in service, relative to it [1]: 1 to 3 % of the span at a mean of 2 %, the
+usual range of chain drives. A larger value widens the error bars of the natural frequencies of the spans."""
+
+
+def _sag_in_service(spec: ChainDrive, layout: TwoShafts) -> Iterator[Assumption[ChainDrive]]:
+    """Ends of the sag, where the natural frequencies of the spans are checked."""
+    if spec.checks.span_resonance is None:
+        return
+    yield _sag_end("slack_sag_least", (1 - _SAG_SHARE) * layout.slack_sag)
+    yield _sag_end("slack_sag_most", (1 + _SAG_SHARE) * layout.slack_sag)
+
+
+def _sag_end(key: str, sag: float) -> Assumption[ChainDrive]:
+    return Assumption(
+        ("layout", key),
+        units.RATIO,
+        lambda spec: sag,
+        lambda spec: Interval(sag, sag),
+        "wear and tensioning change the sag of a slack strand by a half: 1 to 3 % at a mean of 2 %",
+    )
 
 
 def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
     """What is assumed of the chain, of where it runs, of its drive and of its wear."""
+    yield from _of_the_number(spec)
     yield from _OF_THE_CHAIN
     if spec.drive is not None:
         yield from of_the_plate(("drive", "motor"), spec.drive.motor, Use(scenes=frozenset({Start})))
     yield from _MOVED
-    yield from _OF_A_CONVEYOR if isinstance(spec.layout, ConveyorLayout) else _OF_TWO_SHAFTS
+    if isinstance(spec.layout, ConveyorLayout):
+        yield from _OF_A_CONVEYOR
+    else:
+        yield _of_two_shafts(spec.layout)
+        yield from _sag_in_service(spec, spec.layout)
     if spec.drive is not None:
         ratio = spec.drive.gear.ratio
         yield Assumption(

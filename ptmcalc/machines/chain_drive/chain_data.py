@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
+from ptmcalc.base.words import quote
+from ptmcalc.catalogue.chains import RollerChain, nearest, roller_chain
 from ptmcalc.laws import sprocket
 from ptmcalc.numerics.harmonic.parts import HYSTERETIC, KELVIN_VOIGT, ZENER
 from ptmcalc.spec.fields import (
@@ -25,7 +27,7 @@ from ptmcalc.spec.fields import (
     PositiveTime,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
-from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
 
 PositiveWearRate = Annotated[float, Measure(units.WEAR_RATE, above=0, smallest=1e-24)]
 PositiveWearDepth = Annotated[float, Measure(units.WEAR_DEPTH, above=0, smallest=1e-30)]
@@ -75,17 +77,19 @@ class Damping(Fragment):
 class ChainData(Fragment):
     """The chain; parallel chains together are one strand."""
 
-    pitch: PositiveLength
+    number: Annotated[str | None, Field(max_length=40, examples=["16B-1"])] = None
+    """number of a roller chain of ISO 606, such as 16B-1, 16A-2 or ANSI 80; fills in what the keys below leave out"""
+    given_pitch: Annotated[PositiveLength | None, Assumed()] = Field(default=None, alias="pitch")
     """chain pitch"""
-    mass: PositiveLineMass
+    given_mass: Annotated[PositiveLineMass | None, Assumed()] = Field(default=None, alias="mass")
     """of one strand with its plates, flights or slats, without load"""
     count: Annotated[int, Field(ge=1, le=64, strict=True), Absent("one chain, as the file describes one")] = 1
     """parallel chains, or rows of a multiplex roller chain, in a strand"""
     unevenness: Annotated[FactorFromOne | None, Assumed()] = None
     """load of the most loaded parallel chain / mean load; 1.2 is assumed when left out, 1 for one chain"""
-    breaking_load: PositiveForce
+    given_breaking_load: Annotated[PositiveForce | None, Assumed()] = Field(default=None, alias="breaking_load")
     """of one chain"""
-    stiffness: Annotated[PositiveForce | None, OneOf("section")] = None
+    stiffness: Annotated[PositiveForce | None, Assumed()] = None
     """tensile stiffness EA of one chain (force over strain), or give `section`"""
     section: Annotated[PositiveArea | None, OneOf("stiffness")] = None
     """minimum plate section of one chain; determines the stiffness with `modulus`, and the stresses"""
@@ -93,10 +97,10 @@ class ChainData(Fragment):
     """effective modulus of the built-up chain on `section`; 0.65 times that of steel is assumed when left out"""
     damping: Damping = Damping()
     """internal damping"""
-    pin_diameter: Annotated[PositiveLength | None, Checked()] = None
+    pin_diameter: Annotated[PositiveLength | None, Assumed()] = None
     """pin diameter; needed for pressure and wear"""
-    bush_length: Annotated[PositiveLength | None, Limit()] = None
-    """bearing length of pin and bush; needed for pressure"""
+    bush_length: Annotated[PositiveLength | None, Assumed()] = None
+    """bearing length of pin and bush, of all rows of a multiplex chain; needed for pressure"""
     strength: Annotated[PositiveStress | None, Limit()] = None
     """tensile strength of the plates; accounts for the mean stress in the fatigue check"""
     fatigue_limit: Annotated[PositiveStress | None, Limit()] = None
@@ -104,11 +108,67 @@ class ChainData(Fragment):
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The stiffness is given, or follows from the section."""
-        if "stiffness" not in given:
-            yield from exactly_one(given, "stiffness", "section")
+        """The chain has a number or its own sizes; the stiffness is given, or follows from the section."""
+        if "number" in given:
+            yield from _unknown_number(given)
+        else:
+            for key in ("pitch", "mass", "breaking_load"):
+                if key not in given:
+                    yield given.missing(key, f"`{key}` is missing, and no `number` of a standard chain states it")
+            if "stiffness" not in given:
+                yield from exactly_one(given, "stiffness", "section")
         yield from at_most_one(given, "stiffness", "modulus")
         yield from together(given, "modulus", "section", "the modulus needs the section")
+
+    @property
+    def pitch(self) -> float:
+        """Chain pitch [m]."""
+        return _filled(self.given_pitch)
+
+    @property
+    def mass(self) -> float:
+        """Of one strand, without load [kg/m]."""
+        return _filled(self.given_mass)
+
+    @property
+    def breaking_load(self) -> float:
+        """Of one chain [N]."""
+        return _filled(self.given_breaking_load)
+
+    @property
+    def standard(self) -> RollerChain | None:
+        """The chain of the number; None without one."""
+        return roller_chain(self.number) if self.number is not None else None
+
+    @property
+    def rows(self) -> int:
+        """Rows of all parallel chains of a strand [1]."""
+        return self.count * (self.standard.rows if self.standard is not None else 1)
+
+
+def _filled(value: float | None) -> float:
+    """A value that the file, or the number of the chain, has given by now."""
+    assert value is not None, "the number of the chain is looked up before anything is computed"
+    return value
+
+
+def _unknown_number(given: Given) -> Iterator[Conflict]:
+    """A number that the table of roller chains does not have."""
+    named = given.raw.get("number")
+    if not isinstance(named, str) or roller_chain(named) is not None:
+        return
+    offered = nearest(named)
+    reason = f"no roller chain of ISO 606 has the number {quote(named)}; nearest: {', '.join(offered)}"
+    yield Conflict(("number",), reason, f"write `number: {offered[0]}`, or delete it and give the sizes of the chain")
+
+
+def pitch_of(chain: Given | None) -> float | None:
+    """Pitch of a chain as the file describes it, by its own key or by its number."""
+    if chain is None:
+        return None
+    own, named = chain.number("pitch"), chain.raw.get("number")
+    found = roller_chain(named) if isinstance(named, str) else None
+    return found.pitch if own is None and "pitch" not in chain and found is not None else own
 
 
 class Sprocket(Fragment):

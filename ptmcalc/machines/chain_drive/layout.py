@@ -22,7 +22,7 @@ from ptmcalc.spec.fields import (
     PositiveTorque,
     SignedSpan,
 )
-from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
 
 Exponent = Annotated[float, Measure(units.RATIO, at_least=0, at_most=3)]
@@ -96,6 +96,17 @@ class ConveyorLayout(Fragment):
 _SLACK_SAG = Assumed(0.02, 0.01, 0.03, "slack strands of chain drives: sag 1 to 3 % of the span")
 
 
+class Service(Fragment):
+    """Shocks of driver and driven machine, by the classes of ISO 10823:2004."""
+
+    driver: Literal["smooth", "slight", "moderate"]
+    """`smooth`: electric motor, turbine, engine with hydraulic coupling; `slight`: electric motor with frequent starts,
+    engine of six cylinders and more; `moderate`: engine of fewer cylinders"""
+    machine: Literal["smooth", "moderate", "heavy"]
+    """`smooth`: fan, centrifugal pump, uniformly loaded conveyor; `moderate`: unevenly loaded conveyor, mixer, piston
+    pump of three cylinders and more; `heavy`: crusher, press, mill, excavator"""
+
+
 class TwoShafts(Fragment):
     """A chain drive between two shafts."""
 
@@ -114,8 +125,17 @@ class TwoShafts(Fragment):
     """on the driven shaft, instead of `power`"""
     slack_sag: Annotated[PositiveRatio, _SLACK_SAG] = 0.02
     """sag of the slack strand / its length; 1 to 3 % is usual"""
+    slack_sag_least: Annotated[PositiveRatio | None, Assumed()] = None
+    """smallest sag in service, after tensioning, for the natural frequencies of the spans; half of `slack_sag` is
+    assumed"""
+    slack_sag_most: Annotated[PositiveRatio | None, Assumed()] = None
+    """largest sag in service, of a worn chain before tensioning; one and a half times `slack_sag` is assumed"""
     rated_power: Annotated[PositivePower | None, Limit()] = None
-    """of one chain on 19 teeth at this speed, from the manufacturer's chart; needed to check the design power"""
+    """of one chain at this speed, from the manufacturer's chart; needed to check the design power"""
+    reference_teeth: Annotated[int, Field(ge=9, le=40, strict=True), Setting("ISO 10823: 19")] = 19
+    """teeth of the small sprocket of that chart: 19 by ISO 10823:2004, 17 in older handbooks"""
+    service: Service | None = None
+    """classes of driver and driven machine, from which `service_factor` follows by ISO 10823"""
     service_factor: Annotated[FactorFromOne | None, Assumed()] = None
     """f_1 of ISO 10823 for driver and driven machine, 1 to 2.1; 1.4 is assumed when it is left out"""
     tooth_exponent: Annotated[Exponent, Setting("ISO 10823: 1.08")] = 1.08
@@ -126,9 +146,11 @@ class TwoShafts(Fragment):
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """One of length and distance, one of power and torque; an even number of pitches."""
+        yield from at_most_one(given, "service", "service_factor")
         yield from exactly_one(given, "power", "torque")
         if "centre_distance" not in given and "pitches" not in given:
             yield from exactly_one(given, "centre_distance", "pitches")
+        yield from _sag_out_of_range(given)
         pitches = given.raw.get("pitches")
         if isinstance(pitches, int) and not isinstance(pitches, bool) and pitches % 2 == 1:
             if given.word("cranked_link") != "yes":
@@ -138,6 +160,15 @@ class TwoShafts(Fragment):
         elif given.word("cranked_link") == "yes":
             reason = "an even number of pitches needs no cranked link"
             yield Conflict(("cranked_link",), reason, "delete `cranked_link`, or give odd `pitches`")
+
+
+def _sag_out_of_range(given: Given) -> Iterator[Conflict]:
+    """The sag lies between its smallest and its largest value."""
+    middle, least, most = (given.number(key) for key in ("slack_sag", "slack_sag_least", "slack_sag_most"))
+    if middle is not None and least is not None and least > middle:
+        yield Conflict(("slack_sag_least",), "it is larger than `slack_sag`", "correct one of them")
+    if middle is not None and most is not None and most < middle:
+        yield Conflict(("slack_sag_most",), "it is smaller than `slack_sag`", "correct one of them")
 
 
 Layout = Annotated[ConveyorLayout | TwoShafts, Field(discriminator="type")]

@@ -17,6 +17,7 @@ from ptmcalc.machines.chain_drive.chain_data import (
     Sprocket,
     Wear,
     even,
+    pitch_of,
     teeth_of,
     wrong_size,
 )
@@ -111,11 +112,22 @@ class ResonanceLimit(Fragment):
     """minimum force of a relevant tooth harmonic in resonance, relative to m a_max"""
 
 
+class SpanResonance(Fragment):
+    """Limits of the transverse resonance of the free spans between two shafts."""
+
+    band: Annotated[PositiveShare, Limit()] = 0.15
+    """minimum separation of the excitation from a natural frequency of a span, relative to it"""
+    modes: Annotated[int, Field(ge=1, le=6, strict=True), Setting("higher modes are damped by the link joints")] = 3
+    """number of transverse modes of each span"""
+
+
 class ChainChecks(CheckSettings):
     """Limits of the checks of a chain drive; None stands for the default of the layout."""
 
     resonance: ResonanceLimit = ResonanceLimit()
     """required separation of the speed from resonances"""
+    span_resonance: SpanResonance | None = None
+    """required separation of tooth and shaft frequencies from the transverse natural frequencies of the free spans"""
     safety_static: Annotated[PositiveRatio | None, Limit()] = None
     """breaking load / (static + centrifugal tension); 10 for conveyors, 7 for drives when left out"""
     safety_dynamic: Annotated[PositiveRatio | None, Limit()] = None
@@ -263,12 +275,13 @@ class ChainDrive(MachineSpec):
         """Sprockets fit the chain; a start needs its motors, a stop its gear."""
         yield from super().conflicts(given)
         chain, driver, layout = (given.block(key) for key in ("chain", "sprocket", "layout"))
-        pitch = chain.number("pitch") if chain else None
+        pitch = pitch_of(chain)
         if driver is not None:
             yield from wrong_size(driver, pitch, ("sprocket",))
         if layout is not None and "type" in layout.raw:
             yield from _of_layout(layout, driver, pitch)
         yield from _scenes_that_lack(given)
+        yield from _no_free_spans(given)
 
     @property
     def all_scenes(self) -> Sequence[ChainScene]:
@@ -332,6 +345,15 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
         if isinstance(profile, dict) and profile.get("shape") == "curve" and not _has_curve(given):
             hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
             yield Conflict(("scenes", index, "start", "profile", "shape"), "the motor has no `curve` to follow", hint)
+
+
+def _no_free_spans(given: Given) -> Iterator[Conflict]:
+    """The strands of a conveyor lie on their guides."""
+    layout, checks = given.block("layout"), given.block("checks")
+    conveyor = layout is not None and layout.model is not TwoShafts and "type" in layout.raw
+    if conveyor and checks is not None and "span_resonance" in checks:
+        reason = "the strands of a conveyor are supported and do not vibrate as free spans"
+        yield Conflict(("checks", "span_resonance"), reason, "delete `span_resonance`")
 
 
 @kept_for(64)

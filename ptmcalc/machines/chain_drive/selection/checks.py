@@ -276,7 +276,7 @@ FAR_SHAFTS = only(_between_shafts)(
 def _power_limit(spec: ChainDrive, scene: Run) -> Estimate:
     """Rated power of the chain from the manufacturer's chart.
 
-    **Range** one chain on 19 teeth at the speed of the file.
+    **Range** one chain on the teeth of the chart, 19 by default, at the speed of the file.
     **Error** none: the manufacturer's figure.
     **Source** rating charts after ISO 10823.
     """
@@ -301,7 +301,7 @@ POWER = only(lambda spec, scene: isinstance(spec.layout, TwoShafts) and spec.lay
         " service, teeth and rows.",
         why="The chart accounts for wear and fatigue of a chain of this pitch at this speed. A higher power shortens"
         " the chain life.",
-        formula="P f_1 f_2/k <= P_rated,   f_2 = (19/z_1)^1.08",
+        formula="P f_1 f_2/k <= P_rated,   f_2 = (z_r/z_1)^1.08",
         source="ISO 10823:2004; ACA for the rows",
     )
 )

@@ -27,6 +27,9 @@ from ptmcalc.machines.chain_drive.model import (
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.strength import of_one_chain, safety
 
+_REFERENCE = 19
+"""Teeth of the small sprocket of the charts by ISO 10823:2004. Charts of other numbers are named in the report."""
+
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
     """Static safety, geometry of two shafts, design power, wear and life.
@@ -48,12 +51,20 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
         loads |= _equalising(spec)
     if spec.checks.life is not None:
         loads["tooth_passes"] = float(chain_fatigue.tooth_passes(spec.checks.life, spec.chain.pitch, spec.speed))
-    found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    found = {name: Found(Estimate.exact(value), note=_note(spec, name)) for name, value in loads.items()}
     found["chain_speed"] = Found(
         Estimate.exact(spec.speed),
         note=f"lubrication by ACA for roller chains: {chain_selection.lubrication(spec.chain.pitch, spec.speed)}",
     )
     return Result(found | dict(_life(spec, line)), work=1)
+
+
+def _note(spec: ChainDrive, load: str) -> str:
+    """Chart of the design power, where it is not that of 19 teeth."""
+    layout = spec.layout
+    if load != "design_power" or not isinstance(layout, TwoShafts) or layout.reference_teeth == _REFERENCE:
+        return ""
+    return f"by a chart of {layout.reference_teeth} teeth"
 
 
 def _sizes(spec: ChainDrive) -> Iterator[tuple[str, float]]:
@@ -79,8 +90,8 @@ def _blow(spec: ChainDrive) -> dict[str, float]:
 
 def _design_power(spec: ChainDrive, layout: TwoShafts) -> float:
     teeth = min(spec.sprocket.teeth, layout.driven.teeth)
-    rows = layout.strand_factor if layout.strand_factor is not None else ROWS[min(spec.chain.count, max(ROWS))]
-    factor = chain_selection.tooth_factor(teeth, layout.tooth_exponent)
+    rows = layout.strand_factor if layout.strand_factor is not None else ROWS[min(spec.chain.rows, max(ROWS))]
+    factor = chain_selection.tooth_factor(teeth, layout.tooth_exponent, layout.reference_teeth)
     return chain_selection.design_power(useful_pull(spec) * spec.speed, filled(layout.service_factor), factor, rows)
 
 
