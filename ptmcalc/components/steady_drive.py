@@ -104,9 +104,10 @@ def shared_forces(
         return [resistance / len(drives) for _ in drives]
     at = forces or _all(drives)
     marks = [mark for one in drives for mark in one.marks]
-    low, high = 0.0, 4 * max(*marks, speed)
-    start = _speed_of_most(drives, 1, 0.0) if resistance > 0 else _zero_speed(drives, low, high)
-    end = high if resistance > 0 else _speed_of_most(drives, -1, 0.0)
+    high = 4 * max(*marks, speed)
+    most = _speed_of_most(at, marks, 1, 0.0)
+    start = most if resistance > 0 else _crossing(at, 0.0, most, high)
+    end = high if resistance > 0 else _speed_of_most(at, marks, -1, 0.0)
     found = [float(force) for force in at(np.array(_crossing(at, resistance, start, end)))]
     scale = resistance / sum(found) if sum(found) else 0.0
     return [scale * force for force in found]
@@ -116,33 +117,25 @@ def _all(drives: Sequence[Motors]) -> Callable[[FloatArray], Forces]:
     return lambda speeds: [one.force(speeds) for one in drives]
 
 
-def _total(drives: Sequence[Motors], speeds: FloatArray) -> FloatArray:
-    return np.asarray(np.sum([one.force(speeds) for one in drives], axis=0))
-
-
 def _most(drives: Sequence[Motors], sign: int, least: float) -> float:
     """The most all drives pull (1) or hold (-1) at a speed or above [N]."""
-    at = _speed_of_most(drives, sign, least)
-    return sign * float(_total(drives, np.array(at)))
+    forces = _all(drives)
+    at = _speed_of_most(forces, [mark for one in drives for mark in one.marks], sign, least)
+    return sign * float(np.sum(forces(np.array(at)), axis=0))
 
 
-def _speed_of_most(drives: Sequence[Motors], sign: int, least: float) -> float:
+def _speed_of_most(forces: Callable[[FloatArray], Forces], marks: Sequence[float], sign: int, least: float) -> float:
     """The speed there, of all marks of the curves and even steps between, looked at twice [m/s]."""
-    marks = [max(mark, least) for one in drives for mark in one.marks]
+    marks = [max(mark, least) for mark in marks]
     low, high = least, max(2 * least, *marks) * 1.5 + 1e-9
     best = low
     for _ in range(2):
         speeds = np.array(sorted({*np.linspace(low, high, _LOOKS).tolist(), *marks, best}))
-        best = float(speeds[int(np.argmax(sign * _total(drives, speeds)))])
+        best = float(speeds[int(np.argmax(sign * np.sum(forces(speeds), axis=0)))])
         step = (high - low) / (_LOOKS - 1)
         low, high = max(least, best - step), best + step
         marks = [mark for mark in marks if low <= mark <= high]
     return best
-
-
-def _zero_speed(drives: Sequence[Motors], low: float, high: float) -> float:
-    """The highest speed at which all drives together give no force [m/s]."""
-    return _crossing(_all(drives), 0.0, _speed_of_most(drives, 1, low), high)
 
 
 def _crossing(forces: Callable[[FloatArray], Forces], force: float, low: float, high: float) -> float:

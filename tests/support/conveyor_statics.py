@@ -57,17 +57,12 @@ class Statics:
     def run(self) -> dict[str, float]:
         rig = self.rig
         parts, whole = rig.lengths(), rig.resistance()
-        half, forces = len(rig.sections), {name: drive.force for name, drive in rig.drives.items()}
+        forces = {name: drive.force for name, drive in rig.drives.items()}
         shares = {name: force / sum(forces.values()) for name, force in forces.items()}
         at_tail = sum(share for name, share in shares.items() if rig.drives[name].at == "tail") * whole
-        rises = [part.length * (part.friction + part.climb) for part in parts]
-        back, carry = np.concatenate([[0.0], np.cumsum(rises[:half])]), np.concatenate([[0.0], np.cumsum(rises[half:])])
-        carry = carry + back[-1] - at_tail
         lengths = np.array([part.length for part in parts])
-        means = np.concatenate([(back[1:] + back[:-1]) / 2, (carry[1:] + carry[:-1]) / 2])
-        mean = float(means @ lengths / lengths.sum())
-        off = rig.tension - (mean if rig.rigid else 0.0)
-        back, carry = back + off, carry + off
+        back, carry, mean = self.courses(at_tail)
+        off = float(back[0])
         highest, lowest = max(back.max(), carry.max()), min(back.min(), carry.min())
         empty = rig.resistance("empty")
         weights = [
@@ -105,6 +100,20 @@ class Statics:
             found["takeup_mass"] = 2 * rig.tension / G
         found |= self._grips({"head": off, "tail": float(carry[0])}, shares, whole)
         return {name: float(value) for name, value in found.items()}
+
+    def courses(self, at_tail: float) -> tuple[np.ndarray, np.ndarray, float]:
+        """Tensions from the head's run-off to the tail and from there to the head, with what the drives at the tail
+        pull, and the mean of them above the run-off."""
+        rig, half = self.rig, len(self.rig.sections)
+        parts = rig.lengths()
+        rises = [part.length * (part.friction + part.climb) for part in parts]
+        back, carry = np.concatenate([[0.0], np.cumsum(rises[:half])]), np.concatenate([[0.0], np.cumsum(rises[half:])])
+        carry = carry + back[-1] - at_tail
+        lengths = np.array([part.length for part in parts])
+        means = np.concatenate([(back[1:] + back[:-1]) / 2, (carry[1:] + carry[:-1]) / 2])
+        mean = float(means @ lengths / lengths.sum())
+        off = rig.tension - (mean if rig.rigid else 0.0)
+        return back + off, carry + off, mean
 
     def _spans(self, carries: bool) -> list[float]:
         """Belt and load per length square to the belt [kg/m]."""

@@ -89,7 +89,7 @@ def hints(text: str) -> list[tuple[str, str]]:
         (("mass: 15 kg/m", "mass: 15 kN"), "SPC105", "write a mass per length, e.g. `15 kg/m`"),
         (("speed: 2 m/s", "speed: [2 m/s]"), "SPC111", "write e.g. `2.5 m/s`"),
         (("wrap: 200 deg", "wrap: .nan deg"), "SPC109", "write a number, e.g. `200 deg`"),
-        (("inertia: 1.4 kg*m^2, ", ""), "SPC103", "add `inertia: 1.4 kg*m^2`"),
+        (("inertia: 1.4 kg*m^2, ", ""), "SPC113", "add `inertia: 1.4 kg*m^2`"),
         (("{coefficient: 0.022, secondary: 1.4}", "0.02"), "SPC111", "write `resistance: {coefficient: 0.022}`"),
         (("carry: {line_mass: 18 kg/m}", "carry: {set_mass: 22 kg}"), "SPC113", "add `pitch: 1.2 m`"),
         (("carry: {line_mass: 18 kg/m}", "carry: {pitch: 1.2 m}"), "SPC113", "add `set_mass: 22 kg`"),

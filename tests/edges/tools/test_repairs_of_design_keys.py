@@ -12,8 +12,8 @@ from ptmcalc.spec.optional import Limit, declaration_of
 from ptmcalc.spec.shape import keys_of, measure_of
 
 _STATES = re.compile(r"(^|_)(rating|limit|wait|window|permitted|allowed|irregularity)(_|$)")
-_DEVICES = {"torque_limit", "window_factor"}
-"""The limit that a converter keeps, and what is asked of the computation."""
+_DEVICES = {"torque_limit", "window_factor", "dynamic_load_rating"}
+"""The limit that a converter keeps, what is asked of the computation, and the size of a bearing."""
 _DUTIES = {"cycle_time"}
 
 
