@@ -10,7 +10,8 @@ import re
 import textwrap
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from importlib import resources
 from typing import Any
 
 from ptmcalc.base.diagnostic import CODES, CodeText
@@ -24,6 +25,7 @@ from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.report import formula
+from ptmcalc.spec.synonyms import folded
 
 _DIGITS_ALIKE = str.maketrans("OIL", "011")
 """Letters that are written for a digit of a code."""
@@ -102,9 +104,43 @@ def explanation(name: str, form: str = "text") -> str:
     Raises:
         UsageError: nothing has that name.
     """
-    wanted = known_as(name, dict.fromkeys(key for key, _ in _everything()))
+    known = dict.fromkeys(key for key, _ in _everything())
+    if (term := terms().get(folded(name))) is not None and name not in known:
+        one = term.explanation
+        return one.markdown if form == "markdown" else one.plain
+    wanted = known_as(name, known)
     found = [make() for key, make in _everything() if key == wanted]
     return "\n".join(one.markdown if form == "markdown" else one.plain for one in found)
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A term of the field: its names, what a design file writes for it, and the entries to read on."""
+
+    names: tuple[str, ...]
+    text: str
+    entries: tuple[str, ...]
+
+    @property
+    def explanation(self) -> Explanation:
+        """As it is printed."""
+        first, *others = self.names
+        titles = {key: make().title for key, make in _everything() if key in self.entries}
+        entries = "\n".join(f"{key}: {titles[key]}" for key in self.entries)
+        about = "also " + ", ".join(others)
+        return Explanation(first, "term of the field", about, (Part("", self.text), Part("See", entries, True)))
+
+
+@cache
+def terms() -> Mapping[str, Term]:
+    """Terms of the field, by each of their names without regard to case and hyphens."""
+    text = resources.files("ptmcalc.cli").joinpath("terms.txt").read_text("utf-8")
+    found: dict[str, Term] = {}
+    for block in text.split("\n\n")[1:]:
+        names, *lines, entries = block.strip().splitlines()
+        one = Term(tuple(names.split(", ")), "\n".join(lines), tuple(entries.removeprefix("See: ").split(", ")))
+        found |= dict.fromkeys(map(folded, one.names), one)
+    return found
 
 
 def known_as(name: str, known: Collection[str]) -> str:

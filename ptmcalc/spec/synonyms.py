@@ -12,8 +12,9 @@ _BY_KEY: Mapping[str, str] = {
     "stroke": "travel, take-up travel, takeup_travel, take_up_travel",
     "profile": "start_profile, vfd, vsd, inverter, frequency converter, converter, acceleration_curve",
     "converter": "vfd, vsd, inverter, frequency converter",
-    "curve": "fluid coupling, hydraulic coupling, turbo coupling, torque_curve, torque-speed curve, soft starter,"
-    " motor_curve",
+    "curve": "torque_curve, torque-speed curve, motor_curve",
+    "fluid_coupling": "fluid coupling, hydraulic coupling, turbo coupling",
+    "starter": "soft starter, star-delta, wye-delta, star_delta_starter",
     "takeup.mass": "counterweight, counterweight_mass, gravity weight",
     "mass": "counterweight, weight, counterweight_mass",
     "takeup": "take-up, take_up, tensioner, gtu",
@@ -54,7 +55,7 @@ _WORDS = frozenset({"converter", "cosine", "emergency_stop", "ramp", "step"})
 """Those that are written behind a key and are no keys: a key of that name elsewhere is another matter."""
 
 
-def _folded(word: str) -> str:
+def folded(word: str) -> str:
     """A word without regard to case, and to how its parts are joined."""
     return re.sub(r"[\s_-]+", " ", word.strip().lower())
 
@@ -62,7 +63,7 @@ def _folded(word: str) -> str:
 def _called() -> Mapping[str, tuple[str, ...]]:
     found: dict[str, tuple[str, ...]] = {}
     for key, names in _BY_KEY.items():
-        for name in dict.fromkeys(map(_folded, names.split(", "))):
+        for name in dict.fromkeys(map(folded, names.split(", "))):
             found[name] = (*found.get(name, ()), key)
     return MappingProxyType(found)
 
@@ -77,10 +78,10 @@ def as_a_word(word: str) -> str:
 
 def meanings(word: str) -> tuple[str, ...]:
     """The keys and words of design files that a word of the field stands for, the likeliest first."""
-    return tuple(map(as_a_word, _CALLED.get(_folded(word), ())))
+    return tuple(map(as_a_word, _CALLED.get(folded(word), ())))
 
 
 def by_meaning(word: str, known: Iterable[str]) -> str:
     """The known word that another word of the field means, or an empty text."""
     names = tuple(known)
-    return next((key for key in _CALLED.get(_folded(word), ()) if key in names), "")
+    return next((key for key in _CALLED.get(folded(word), ()) if key in names), "")

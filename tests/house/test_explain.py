@@ -19,10 +19,11 @@ from support.examples import UPDATE, again, as_said, from_blocks, keep, names, p
 from ptmcalc.base.diagnostic import BROKEN, CODES
 from ptmcalc.base.units import unit_of
 from ptmcalc.cli import examples
-from ptmcalc.cli.explain import explanation, of_check, of_effect, of_solver
+from ptmcalc.cli.explain import _everything, explanation, of_check, of_effect, of_solver, terms
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.report import formula
+from ptmcalc.spec.synonyms import folded
 
 KINDS = [load_kind(name) for name in kind_names()]
 TYPES = {one.label: (whole, one) for whole in KINDS for one in whole.manifests}
@@ -190,3 +191,23 @@ def test_a_name_or_all(arguments: tuple[str, ...]) -> None:
     done = ptmcalc("explain", *arguments)
     assert done.status == 2
     assert "explain takes a name, or --all" in done.err
+
+
+# -- terms of the field ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "name", ["VFD", "converter", "fluid coupling", "S-curve", "s_curve", "holdback", "load sharing", "take-up travel"]
+)
+def test_a_term_of_the_field_is_explained_by_what_a_file_writes(name: str) -> None:
+    told = explanation(name)
+    assert "term of the field" in told
+    assert "`" in told
+
+
+def test_terms_name_entries_that_exist_and_none_twice() -> None:
+    known = {key for key, _ in _everything()}
+    listed = [name for term in {id(one): one for one in terms().values()}.values() for name in term.names]
+    assert len({folded(name) for name in listed}) == len(listed)
+    assert not known & set(listed)
+    assert {entry for term in terms().values() for entry in term.entries} <= known

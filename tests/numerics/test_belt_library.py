@@ -260,6 +260,30 @@ def test_a_motor_on_its_curve_pulls_in_c_and_in_python_what_the_laws_of_the_moto
             assert slope[0] == pytest.approx(rise, rel=1e-3, abs=0.1)
 
 
+SHAPES = {
+    "ramp": lambda u: u,
+    "cosine": lambda u: (1 - math.cos(math.pi * u)) / 2,
+    "parabolic": lambda u: 2 * u * u if u < 0.5 else 1 - 2 * (1 - u) ** 2,
+    ((0.0, 0.0), (0.25, 0.1), (0.7, 0.8), (1.0, 1.0)): lambda u: float(
+        np.interp(u, [0, 0.25, 0.7, 1], [0, 0.1, 0.8, 1])
+    ),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=str)
+def test_a_converter_moves_the_curve_by_what_its_reference_is_short_of(shape: Any) -> None:
+    motor, random = TypeAdapter(AnyMotor).validate_python(MOTORS["induction"]), np.random.default_rng(6)
+    top, turns, ramp = motor.synchronous_speed, 40.0, 8.0
+    given = MotorForce(motor.curve_stages, turns, 70.0, 90.0, again=1.0, reference=top, ramp=ramp, shape=shape)
+    times, speeds = random.uniform(0, 12, 300), random.uniform(-1, 5, 300)
+    found = compiled.forces(given, times, speeds)
+    for time, speed, force in zip(times.tolist(), speeds.tolist(), found.tolist(), strict=True):
+        part = SHAPES[shape](min((time - 1.0) / ramp, 1.0)) if time >= 1.0 else 0.0
+        torque = float(motor.torque(speed * turns + top * (1 - part), 0.0)) if time >= 1.0 else 0.0
+        assert force == pytest.approx(torque * (70.0 if torque > 0 else 90.0), rel=1e-10, abs=1e-6)
+        assert given(time, speed)[0] == pytest.approx(force, rel=1e-12, abs=1e-7)
+
+
 # -- the library ------------------------------------------------------------------------------------------------------
 
 

@@ -106,6 +106,16 @@ def test_a_belt_without_friction_that_runs_evenly_has_no_rates(steps: int) -> No
     assert row.speeds == pytest.approx(np.zeros(len(row.masses)), abs=1e-12)
 
 
+def test_at_the_end_the_tail_has_the_speed_of_its_drum() -> None:
+    """Also where nodes of the belt give on their own."""
+    course = course_of(12)
+    head = Station(place_at(course, 0, 0.0), [], None, lambda time: 1.0)
+    tail = Station(place_at(course, course.tail, 0.0), [Drum("tail", 1e6)])
+    start = np.full(course.cells, 1e5)
+    drawn = march(course, head, tail, start, 0.0, 20 * course.step, give=Leaking(course, 0.0))
+    assert drawn.row.speeds[course.tail] == pytest.approx(drawn.tail[-1].belt - drawn.head[-1].belt, rel=1e-12)
+
+
 def test_head_and_tail_have_their_lumps_once() -> None:
     """The head is where the course begins and ends; the tail is one node, all of whose friction is before it."""
     ends = np.array([0.0, 100.0])

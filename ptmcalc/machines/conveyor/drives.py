@@ -14,7 +14,7 @@ from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, bel
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, PlacedDrive, Start
 from ptmcalc.numerics.belt.curve import MotorForce
-from ptmcalc.numerics.belt.station import Torque
+from ptmcalc.numerics.belt.library import forces
 
 _NEARLY, _LEAST_UP_TO = 0.98, 0.9
 """Speeds that end a start [1]; engineering choices. `_NEARLY`: relative to the speed at which the force falls to the
@@ -140,6 +140,29 @@ def along_curve(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorFo
     )
 
 
+def on_converter(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorForce:
+    """Rim force of a drive and its slope over the rim's speed, whose converter follows the profile of a start.
+
+    A converter with a constant ratio of voltage and frequency moves the curve of its motor along the speed: the torque
+    is that of the slip below the synchronous speed w_0 p(t), with the profile p(t).
+
+    `creep` as in `along_curve`.
+    """
+    curve, profile = drive.running_curve, scene.profile
+    assert curve is not None
+    efficiency, turns = filled(drive.gear.efficiency), drive.gear.ratio / (drive.drum.diameter / 2)
+    return MotorForce(
+        curve.curve_stages[-1:],
+        (1 - creep) * turns,
+        drive.motor.count * turns * efficiency,
+        drive.motor.count * turns / efficiency,
+        again=drive.delay,
+        reference=filled(curve.no_load_speed),
+        ramp=profile.rise_time,
+        shape=profile.rise,
+    )
+
+
 def least_pull(spec: Conveyor, scene: Start) -> float:
     """Least force of all drives together on the way up to nine tenths of rated speed [N]."""
     curves = [along_curve(scene, drive) for drive in spec.all_drives.values()]
@@ -151,12 +174,12 @@ def least_pull(spec: Conveyor, scene: Start) -> float:
     return min(sum(curve(_LATE_STAGE, float(speed))[0] for curve in curves) for speed in speeds)
 
 
-def at_rest(curve: Torque) -> Callable[[FloatArray], FloatArray]:
+def at_rest(curve: MotorForce) -> Callable[[FloatArray], FloatArray]:
     """The force at standstill over time [N]."""
-    return lambda times: np.array([curve(float(time), 0.0)[0] for time in np.ravel(times)]).reshape(np.shape(times))
+    return lambda times: forces(curve, times, np.zeros(np.shape(times)))
 
 
-def rigid_curve_start(line: BeltLine, curves: Mapping[str, Torque]) -> tuple[float, float]:
+def rigid_curve_start(line: BeltLine, curves: Mapping[str, MotorForce]) -> tuple[float, float]:
     """When the rigid body reaches rated speed, or nearly the speed at which its motors' curves leave it, and its way,
     by Heun's rule; (0, 0) where it never gets away."""
     mass, resistance = moving_mass(line), line.static_resistance + line.tail_pull

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Finding
+from ptmcalc.machines.conveyor.motion import on_slip_lines
 from ptmcalc.machines.conveyor.plausible import implausible
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
 from ptmcalc.machines.conveyor.waves.effects.damping import jumps
@@ -116,7 +117,7 @@ def _of_scenes(spec: Conveyor) -> Iterator[Finding]:
                 (*path, "type"),
                 "add `brakes: {disc: {torque: 3000 N*m}}`, or write `type: coast`",
             )
-        if isinstance(scene, Start) and scene.profile.imposes_speed and late:
+        if isinstance(scene, Start) and scene.profile.imposes_speed and late and not on_slip_lines(spec, scene):
             yield Finding(
                 "SPC201",
                 f"an imposed speed turns all pulleys at once: the `delay` of `{late[0]}` has no effect",

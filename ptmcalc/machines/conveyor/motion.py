@@ -11,16 +11,17 @@ from ptmcalc.machines.conveyor.drives import (
     along_curve,
     at_rest,
     moving_mass,
+    on_converter,
     pull,
     rigid_curve_start,
     rigid_start,
     running,
 )
-from ptmcalc.machines.conveyor.load_sharing import creep_of, starting_shares, steady_forces
+from ptmcalc.machines.conveyor.load_sharing import creep_of, motors_of, starting_shares, steady_forces
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force
 from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Start, Stop, Stopping
-from ptmcalc.numerics.belt.station import Torque
+from ptmcalc.numerics.belt.curve import MotorForce
 
 _CONTOURS = 2.0
 """Contour times after standstill that belong to a stop [1]. A numerical choice. More take longer; fewer may omit a late
@@ -58,7 +59,7 @@ class Moving:
     """when the rigid body reaches rated speed, or rest [s]"""
     rigid_way: float
     """what it goes by then [m]"""
-    curves: Mapping[str, Torque] = field(default_factory=dict)
+    curves: Mapping[str, MotorForce] = field(default_factory=dict)
     """rim forces of drives that follow their motors' curves"""
 
     @property
@@ -104,11 +105,27 @@ def rounds(spec: Conveyor, scene: ConveyorScene) -> float:
     return case.window / case.line.contour_time
 
 
+def on_slip_lines(spec: Conveyor, scene: Start) -> bool:
+    """Whether the converters of a start hold the frequencies of their motors and not the speeds of the pulleys.
+
+    Equal speeds of pulleys at both ends would share the load by the creep of the belt alone, ever more unequally: the
+    slip of the motors decides there.
+    """
+    places = {drive.at for drive in spec.all_drives.values()}
+    return scene.profile.imposes_speed and len(places) > 1 and bool(motors_of(spec))
+
+
 def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
     profile = scene.profile
     rise = profile.rise_time
     if profile.imposes_speed:
         window = rise + 4 * line.contour_time
+        if on_slip_lines(spec, scene):
+            creep = creep_of(spec, line)
+            curves = {name: on_converter(scene, drive, creep[name]) for name, drive in spec.all_drives.items()}
+            pulls = {name: at_rest(curve) for name, curve in curves.items()}
+            latest = max(drive.delay for drive in spec.all_drives.values())
+            return Moving(spec, scene, line, pulls, None, 0.0, latest + window, latest + rise, math.nan, curves)
 
         def imposed(time: float) -> float:
             return line.speed * float(start_profile.rise(profile.rise, rise, time))

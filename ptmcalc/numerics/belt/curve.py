@@ -4,6 +4,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from ptmcalc.laws import start_profile
+
+SHAPES = "ramp", "cosine", "parabolic"
+"""Rises of the reference of a converter that have a formula (`laws.start_profile`), in the order in which C knows
+them."""
 _BELOW = 1 - 1e-9
 """Speed at the end of a stage relative to that at which the next one begins [1]; a numerical choice near 1."""
 
@@ -68,10 +73,10 @@ class MotorForce:
         F = drives M(w, t) (M > 0),   brakes M(w, t) (M < 0),   w = turns v
 
     `drives` = n i eta/R and `brakes` = n i/(eta R) [1/m], `turns` [rad/m]. The motors are on from `delay` to `off`, and
-    again from `again` [s]. A frequency converter moves the curve along the speed by what its reference, which rises
-    to `reference` in the time `ramp`, is short of it. A fluid coupling that fills with the time constant `fill` passes
-    on 1 - exp(-t/fill) of the torque. A soft starter raises the voltage from `soft_from` of the rated one in the time
-    `soft_time`, and the torque with its square.
+    again from `again` [s]. A frequency converter moves the curve along the speed by what its reference is short of
+    `reference`, to which it rises along `shape` in the time `ramp`. A fluid coupling that fills with the time constant
+    `fill` passes on 1 - exp(-t/fill) of the torque. A soft starter raises the voltage from `soft_from` of the rated one
+    in the time `soft_time`, and the torque with its square.
     """
 
     stages: Sequence[CurveStage]
@@ -83,6 +88,7 @@ class MotorForce:
     again: float = 0.0
     reference: float = 0.0
     ramp: float = 0.0
+    shape: start_profile.Shape = "ramp"
     fill: float = 0.0
     soft_from: float = 1.0
     soft_time: float = 0.0
@@ -99,7 +105,7 @@ class MotorForce:
                 break
             late += 1
         if self.ramp > 0:
-            turning += self.reference * (1 - min(since / self.ramp, 1.0))
+            turning += self.reference * (1 - float(start_profile.rise(self.shape, self.ramp, since)))
         torque, rise = self.stages[late].at(turning)
         factor = (self.drives if torque > 0 else self.brakes) * self._rises(since)
         return factor * torque, factor * rise * self.turns

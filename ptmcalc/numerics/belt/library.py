@@ -17,7 +17,7 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError, UsageError
 from ptmcalc.numerics.belt.compiler import LIBRARY, SOURCE, checksum, compiled, compiler
 from ptmcalc.numerics.belt.course import FloatArray
-from ptmcalc.numerics.belt.curve import MotorForce
+from ptmcalc.numerics.belt.curve import SHAPES, MotorForce
 
 _CURE = "run `python -m pip install -e .` in the project's folder, or `python -m pip install .`"
 _ASK = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, ctypes.c_double, ctypes.POINTER(ctypes.c_double))
@@ -55,8 +55,8 @@ class Curve(ctypes.Structure):
     """Motors on their curve."""
 
     _fields_ = _members(
-        array="stages",
-        whole="count",
+        array="stages points",
+        whole="count point_count shape",
         real="turns drives brakes delay off again reference ramp fill soft_from soft_time",
     )
 
@@ -171,7 +171,7 @@ def library() -> ctypes.CDLL:
         getattr(found, f"belt_{name}").restype = _WHOLE
     for name in ("velocity", "given", "energy", "force"):
         getattr(found, f"belt_{name}").restype = _REAL
-    for name in ("hang", "carry", "start", "exponential"):
+    for name in ("hang", "carry", "start", "exponential", "forces"):
         getattr(found, f"belt_{name}").restype = None
     for name, kinds in (
         ("advance", [_ADDRESS, *[_REAL] * 4]),
@@ -186,6 +186,7 @@ def library() -> ctypes.CDLL:
         ("carry", [_ADDRESS] * 6),
         ("start", [_ADDRESS]),
         ("exponential", [_REAL, _ADDRESS]),
+        ("forces", [_ADDRESS, _WHOLE, *[_ADDRESS] * 3]),
     ):
         getattr(found, f"belt_{name}").argtypes = kinds
     return found
@@ -201,6 +202,15 @@ def address(values: FloatArray) -> int:
 def address_of(made: ctypes.Structure | ctypes.Array[Any]) -> int:
     """Where a struct of C lies."""
     return ctypes.addressof(made)
+
+
+def forces(given: MotorForce, times: FloatArray, speeds: FloatArray) -> FloatArray:
+    """Forces of motors on their curve at times [s] and rim speeds [m/s], of equal shape [N]."""
+    laws = Laws()
+    law, found = laws.of_speed(given), np.empty(np.shape(times))
+    at, turning = (np.ascontiguousarray(values, float) for values in (times, speeds))
+    library().belt_forces(address_of(law), at.size, address(at), address(turning), address(found))
+    return found
 
 
 def check(fault: int, time: float, raised: Sequence[BaseException] = ()) -> None:
@@ -276,8 +286,10 @@ class Laws:
             made.until_speed, made.until_time = stage.until_speed, stage.until_time
             self._alive += [speeds, torques]
         numbers = [getattr(given, name) for name, kind in Curve._fields_ if kind is _REAL]
-        curve = Curve(address_of(stages), len(stages), *numbers)
-        self._alive += [stages, curve]
+        points = np.array(() if isinstance(given.shape, str) else given.shape, float)
+        shape = SHAPES.index(given.shape) if isinstance(given.shape, str) else 0
+        curve = Curve(address_of(stages), address(points), len(stages), len(points), shape, *numbers)
+        self._alive += [stages, points, curve]
         return Law(curve=address_of(curve))
 
     def _sampled(self, given: OverTime | None) -> Law:

@@ -37,6 +37,7 @@ enum { GOES_ON, IS_STILL, LOST_GRIP };
 #define ALTERNATIONS 12 /* most changes of what sticks and slips in one step [1]; two drums have nine states */
 #define SAME 1e-12      /* relative change of a belt speed at which its centrifugal tension has settled [1] */
 #define HELD (1 + 1e-9) /* friction of a belt at rest holds so much of itself [1]: its tension is a difference of large ones */
+#define HALF_PI 1.57079632679489661923
 #define ON_THE_GRID 1e-6 /* distance of a time from the grid, relative to the step [1], that counts as rounding */
 #define SERIES 1e-3     /* time constants below which the series of the exponentials is used [1]: rounding without it */
 
@@ -48,10 +49,12 @@ typedef struct {
     double breakdown, slip, stator, synchronous, until_speed, until_time;
 } Stage;
 
-/* Motors on their curve: curve.py. */
+/* Motors on their curve: curve.py. The reference of a converter rises along `shape` (0 straight, 1 cosine, 2 parabolas)
+   or along straight lines between pairs of `points` (time, share), both relative. */
 typedef struct {
     const Stage *stages;
-    int64_t count;
+    const double *points;
+    int64_t count, point_count, shape;
     double turns, drives, brakes, delay, off, again, reference, ramp, fill, soft_from, soft_time;
 } Curve;
 
@@ -242,6 +245,26 @@ static double torque_of(const Stage *stage, double speed, double *slope)
     return torques[i - 1] + *slope * (speed - speeds[i - 1]);
 }
 
+/* Share of the reference of a converter at a share of its rise time. */
+static double reference_at(const Curve *curve, double part)
+{
+    const double *points = curve->points;
+    if (part >= 1)
+        return 1.0;
+    if (curve->point_count > 1) {
+        int64_t i = 1;
+        while (i < curve->point_count - 1 && part > points[2 * i])
+            i++;
+        double before = points[2 * i - 2], low = points[2 * i - 1];
+        return low + (points[2 * i + 1] - low) * (part - before) / (points[2 * i] - before);
+    }
+    if (curve->shape == 1)
+        return sin(HALF_PI * part) * sin(HALF_PI * part);
+    if (curve->shape == 2)
+        return part < 0.5 ? 2 * part * part : 1 - 2 * (1 - part) * (1 - part);
+    return part;
+}
+
 /* Force of motors at the rim, and its slope over the rim speed. */
 static double on_curve(const Curve *curve, double time, double speed, double *slope)
 {
@@ -253,7 +276,7 @@ static double on_curve(const Curve *curve, double time, double speed, double *sl
     for (int64_t i = 1; i < curve->count && !(turning < stage->until_speed && since < stage->until_time); i++)
         stage++;
     if (curve->ramp > 0)
-        turning += curve->reference * (1 - least(since / curve->ramp, 1.0));
+        turning += curve->reference * (1 - reference_at(curve, since / curve->ramp));
     double torque = torque_of(stage, turning, slope), factor = torque > 0 ? curve->drives : curve->brakes;
     if (curve->fill > 0)
         factor *= -expm1(-since / curve->fill);
@@ -293,6 +316,14 @@ static double value_of(const Law *law, double time, double speed, double *slope,
 SHARED double belt_force(const Law *law, double time, double speed, double *slope)
 {
     return on_curve(law->curve, time, speed, slope);
+}
+
+/* Forces of motors at `count` times and speeds. */
+SHARED void belt_forces(const Law *law, int64_t count, const double *times, const double *speeds, double *found)
+{
+    double slope;
+    for (int64_t i = 0; i < count; i++)
+        found[i] = on_curve(law->curve, times[i], speeds[i], &slope);
 }
 
 static double brake_at(Drum *drum, double time, Station *s)

@@ -286,11 +286,9 @@ def _row(
     def speeds(back: int) -> FloatArray:
         seen = track[-min(back, len(track))]
         found = np.concatenate([[seen.behind], inside[back - 1], [seen.belt]])
-        if not cut:
-            return found
         there = lows[-min(back, len(lows))]
-        found[cut] = there.belt
-        return np.append(found, there.behind)
+        found[course.tail] = there.belt
+        return np.append(found, there.behind) if cut else found
 
     masses = (course.before + course.after) / 2 * step
     masses[0], masses[drum] = course.after[0] / 2 * step, course.before[-1] / 2 * step

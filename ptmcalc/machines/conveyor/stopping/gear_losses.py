@@ -86,10 +86,10 @@ def changing_sides(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> Gear
 
     step = fixed_time / _STEPS
     time, speed, way, most = 0.0, line.speed, 0.0, 0.0
+    later = rate(time)
     while speed > 0 and time < 4 * fixed_time:
-        first, differs = rate(time)
-        second, _ = rate(time + step)
-        most = max(most, differs)
+        (first, differs), later = later, rate(time + step)
+        second, most = later[0], max(most, differs)
         change = (first + second) / 2 * step
         share = min(speed / -change, 1.0) if change < 0 else 1.0
         way += (speed + change * share / 2) * step * share

@@ -17,6 +17,7 @@ from ptmcalc.machines.conveyor.takeup.travel import moved
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.machines.conveyor.waves.takeup_stops import sinking
 from ptmcalc.numerics import peaks
+from ptmcalc.numerics.belt.library import forces
 from ptmcalc.numerics.belt.march import Drawn
 from ptmcalc.numerics.belt.station import Station, Track
 
@@ -95,7 +96,7 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
     if case.brings_to_rest:
         values |= _rest(case, belt, drawn.times)
         values |= _longest_way(case, drawn, values)
-    if case.imposed is not None and isinstance(case.scene, Start):
+    if isinstance(case.scene, Start) and case.scene.profile.imposes_speed:
         _asked(found, case, drawn, ready)
     return found
 
@@ -149,14 +150,18 @@ def _in_curve(line: BeltLine, drawn: Drawn, ready: Set, curve: Curve) -> float:
 
 
 def _asked(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
-    """Force that an imposed speed asks of the drives together, sum (m v' + S_on - S_off), over the available one."""
+    """Force that a start on converters asks of the drives together, over the available one: sum (m v' + S_on - S_off)
+    of an imposed speed, sum F(v, t) of motors on their slip lines."""
     step = ready.course.step
     force = np.zeros(len(drawn.times))
     for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
-        if not station.imposes:
-            continue
-        mass = sum(drum.mass for drum in station.drums)
-        force += history.tensions[:, 0] - history.tensions[:, -1] + mass * np.gradient(history.belt, step)
+        for drum, speeds in zip(station.drums, history.drums.T, strict=True):
+            curve = case.curves.get(drum.name)
+            if curve is not None:
+                force += forces(curve, drawn.times, speeds)
+        if station.imposes:
+            mass = sum(drum.mass for drum in station.drums)
+            force += history.tensions[:, 0] - history.tensions[:, -1] + mass * np.gradient(history.belt, step)
     found.traces["starting_force_needed"] = trace = Trace(force, step)
     needed, at = trace.extreme()
     available = starting_force(case.spec)
