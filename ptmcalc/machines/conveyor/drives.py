@@ -20,6 +20,10 @@ _NEARLY, _LEAST_UP_TO = 0.98, 0.9
 """Speeds that end a start [1]; engineering choices. `_NEARLY`: relative to the speed at which the force falls to the
 resistance, which is approached without end; a larger value gives a longer starting time. `_LEAST_UP_TO`: relative to
 the rated speed; the minimum force is taken below it, as the motor torque falls to the load above."""
+_SETTLED, _FASTEST, _LOOKS = 0.99, 4.0, 1201
+"""`_SETTLED`: speed of a start on curves relative to its last speed [1] at which it counts as over; an engineering
+choice: a larger value follows the start longer. `_FASTEST`, `_LOOKS`: range of that speed relative to the rated one [1]
+and speeds tried in it; numerical choices: steps of a quarter of a per cent."""
 _LATE_STAGE = 1e6
 """Time at which all stages that end by time, and all ramps, are over [s]. A numerical choice far beyond any start; a
 value within a start evaluates the wrong stage."""
@@ -179,9 +183,9 @@ def at_rest(curve: MotorForce) -> Callable[[FloatArray], FloatArray]:
     return lambda times: forces(curve, times, np.zeros(np.shape(times)))
 
 
-def rigid_curve_start(line: BeltLine, curves: Mapping[str, MotorForce]) -> tuple[float, float]:
-    """When the rigid body reaches rated speed, or nearly the speed at which its motors' curves leave it, and its way,
-    by Heun's rule; (0, 0) where it never gets away."""
+def rigid_curve_start(line: BeltLine, curves: Mapping[str, MotorForce]) -> tuple[float, float, float]:
+    """When the rigid body reaches rated speed, or nearly the speed at which its motors' curves leave it, its way by
+    then, and when it has nearly that last speed, by Heun's rule; zeros where it never gets away."""
     mass, resistance = moving_mass(line), line.static_resistance + line.tail_pull
 
     def rate(time: float, speed: float) -> float:
@@ -192,16 +196,28 @@ def rigid_curve_start(line: BeltLine, curves: Mapping[str, MotorForce]) -> tuple
     settles = next((speed for speed in speeds if rate(_LATE_STAGE, speed) <= 0), line.speed)
     goal = line.speed if least > 0 else _NEARLY * settles
     if goal <= 0:
-        return 0.0, 0.0
+        return 0.0, 0.0, 0.0
+    steady = goal if least <= 0 else max(_SETTLED * _steady_speed(line, curves, resistance), goal)
     typical = float(np.mean([max(rate(_LATE_STAGE, speed), 0.0) for speed in speeds if speed <= goal]))
     step = goal / typical / (_CURVE_STEPS / 10)
     time = speed = way = 0.0
+    reached: tuple[float, float] | None = None
     for _ in range(20 * _CURVE_STEPS):
         first = rate(time, speed)
         second = rate(time + step, max(speed + first * step, 0.0))
         new = max(speed + (first + second) / 2 * step, 0.0)
-        if new >= goal:
+        if reached is None and new >= goal:
             part = (goal - speed) / (new - speed) * step
-            return time + part, way + (speed + goal) / 2 * part
+            reached = time + part, way + (speed + goal) / 2 * part
+        if reached is not None and new >= steady:
+            return (*reached, time + step)
         way, time, speed = way + (speed + new) / 2 * step, time + step, new
-    return time, way
+    return (*(reached or (time, way)), time)
+
+
+def _steady_speed(line: BeltLine, curves: Mapping[str, MotorForce], resistance: float) -> float:
+    """Highest speed at which the drives carry the resistance once their start is over [m/s]."""
+    speeds = np.linspace(line.speed, _FASTEST * line.speed, _LOOKS)
+    late = np.full(_LOOKS, _LATE_STAGE)
+    carried = np.sum([forces(curve, late, speeds) for curve in curves.values()], axis=0) >= resistance
+    return float(speeds[carried][-1]) if carried.any() else line.speed

@@ -135,6 +135,12 @@ def creep_of(spec: Conveyor, line: BeltLine) -> Mapping[str, float]:
     return found
 
 
+def pull_together(spec: Conveyor, line: BeltLine, place: str) -> bool:
+    """Whether the drives at a place, `head` or `tail`, all drive or all brake in steady running."""
+    forces = [force for name, force in steady_forces(spec, line).items() if spec.all_drives[name].at == place]
+    return min(forces, default=0.0) >= 0 or max(forces) <= 0
+
+
 def shares_at(spec: Conveyor, line: BeltLine, place: str) -> list[float]:
     """Part of the force of all drives at a place, `head` or `tail`, that each of them has in steady running [1]; by
     their mean starting torques where they neither drive nor brake together."""

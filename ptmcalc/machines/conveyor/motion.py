@@ -137,8 +137,8 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
         creep = creep_of(spec, line)
         curves = {name: along_curve(scene, drive, creep[name]) for name, drive in spec.all_drives.items()}
         pulls = {name: at_rest(curve) for name, curve in curves.items()}
-        time, way = rigid_curve_start(line, curves)
-        return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, time), time, way, curves)
+        time, way, steady = rigid_curve_start(line, curves)
+        return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, steady), time, way, curves)
     time, way = rigid_start(spec, scene, line, pulls)
     return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, time), time, way)
 

@@ -144,3 +144,14 @@ def test_unequal_drives_without_curves_share_in_an_unknown_way() -> None:
     drives["b"]["motor"]["speed"] = "1500 rpm"  # its pulley then has the speed of the other one
     scene = machines.scene_of(machines.report_of(conveyor(**drives)))
     assert machines.check_of(scene, "CNV101").verdict is Verdict.PASS
+
+
+def test_what_follows_a_start_of_drives_that_work_against_each_other_has_no_bound() -> None:
+    """The second pulley brakes against the first one: how they share what waves add later is not known."""
+    start = {"type": "start", "profile": {"shape": "cosine", "time": "30 s"}}
+    data = conveyor(**CASES["diameters"]) | {"scenes": [start]}
+    scene = machines.scene_of(machines.report_of(data))
+    assert machines.load_of(scene, "tension_run_on_max[a]").estimate.bounded
+    assert not machines.load_of(scene, "slip_utilisation_max[a]").estimate.bounded
+    grips = [one.verdict for one in scene.checks if one.code == "CNV101"]
+    assert grips == [Verdict.UNDECIDED, Verdict.UNDECIDED]

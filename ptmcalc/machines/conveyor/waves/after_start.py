@@ -12,7 +12,7 @@ from ptmcalc.contract.result import Found, family, of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.load_sharing import shares_at
+from ptmcalc.machines.conveyor.load_sharing import pull_together, shares_at
 from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS, TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, grips, starting_force
 from ptmcalc.machines.conveyor.spec import Conveyor
@@ -163,6 +163,9 @@ class _After:
                 _part(1 - shares, float(side[first])) + _part(shares, float(side[last]))
                 for side in (self.least, self.most)
             )
+            apart = not pull_together(spec, self.line, place)
+            if apart:  # nobody knows how drives that work against each other share what waves add
+                least[1:-1], most[1:-1] = -math.inf, math.inf
             for index, name in enumerate(names):
                 yield of("tension_run_on_max", name), float(most[index])
                 yield of("tension_run_off_min", name), float(least[index + 1])
@@ -171,9 +174,9 @@ class _After:
                 sides = shares[index], shares[index + 1]
                 grip = max(self._used(first, last, pair, lift, friction[name]) for pair in (sides, sides[::-1]))
                 bare = max(self._used(first, last, pair, 0.0, friction[name]) for pair in (sides, sides[::-1]))
-                used.append(grip)
-                left.append(float(capstan.slip_reserve_ratio(bare, friction[name])))
-                yield of("slip_utilisation_max", name), grip
+                used.append(math.inf if apart else grip)
+                left.append(0.0 if apart else float(capstan.slip_reserve_ratio(bare, friction[name])))
+                yield of("slip_utilisation_max", name), used[-1]
                 yield of("slip_reserve_min", name), left[-1]
         if used:
             yield "slip_utilisation_max", max(used)
