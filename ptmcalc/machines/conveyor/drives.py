@@ -148,19 +148,23 @@ def on_converter(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorF
     """Rim force of a drive and its slope over the rim's speed, whose converter follows the profile of a start.
 
     A converter with a constant ratio of voltage and frequency moves the curve of its motor along the speed: the torque
-    is that of the slip below the synchronous speed w_0 p(t), with the profile p(t).
+    is that of the slip below the synchronous speed w_0 p(t), with the profile p(t). After an aborted start, the profile
+    begins anew.
 
     `creep` as in `along_curve`.
     """
     curve, profile = drive.running_curve, scene.profile
     assert curve is not None
     efficiency, turns = filled(drive.gear.efficiency), drive.gear.ratio / (drive.drum.diameter / 2)
+    aborted = scene.aborted
     return MotorForce(
         curve.curve_stages[-1:],
         (1 - creep) * turns,
         drive.motor.count * turns * efficiency,
         drive.motor.count * turns / efficiency,
-        again=drive.delay,
+        delay=drive.delay,
+        off=aborted.run if aborted else -math.inf,
+        again=drive.delay + (aborted.run + aborted.pause if aborted else 0.0),
         reference=filled(curve.no_load_speed),
         ramp=profile.rise_time,
         shape=profile.rise,

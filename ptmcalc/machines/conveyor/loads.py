@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Start
 
 TENSIONS = (
     "tension_run_on_max",
@@ -84,7 +84,10 @@ TAKEUP_CLEARANCES = ("takeup_clearance_upper_min", "takeup_clearance_lower_min")
 TAKEUP_WAYS = frozenset({"takeup_movement", TAKEUP_TOTAL, *TAKEUP_CLEARANCES})
 """Loads that move with the take-up, metre by metre."""
 
-OF_NETWORK = OF_BELT.union(OF_STOP, TAKEUP_WAYS)
+RUN_BACK_DISTANCE, RUN_BACK_SPEED = "run_back_distance", "run_back_speed"
+"""Backward motion of the belt at the drives in an aborted start."""
+
+OF_NETWORK = OF_BELT.union(OF_STOP, TAKEUP_WAYS, {RUN_BACK_DISTANCE, RUN_BACK_SPEED})
 """Loads that a march over the whole belt gives, besides those of each drive."""
 
 CHANGED_BY_MOTION = OF_NETWORK | PER_DRIVE
@@ -116,3 +119,9 @@ def parts_of(loads: Iterable[LoadInfo], spec: Conveyor) -> Iterator[LoadInfo]:
 def quiet(info: LoadInfo) -> LoadInfo:
     """The same load, not in the table."""
     return replace(info, headline=False)
+
+
+def may_run_back(spec: Conveyor, scene: Start) -> bool:
+    """Whether a start is aborted and no backstop holds all drive pulleys."""
+    held = spec.backstop is not None and all(drive.at == "head" for drive in spec.all_drives.values())
+    return scene.aborted is not None and not held

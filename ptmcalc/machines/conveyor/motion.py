@@ -109,10 +109,10 @@ def on_slip_lines(spec: Conveyor, scene: Start) -> bool:
     """Whether the converters of a start hold the frequencies of their motors and not the speeds of the pulleys.
 
     Equal speeds of pulleys at both ends would share the load by the creep of the belt alone, ever more unequally: the
-    slip of the motors decides there.
+    slip of the motors decides there. Motors that are switched off hold no speed.
     """
     places = {drive.at for drive in spec.all_drives.values()}
-    return scene.profile.imposes_speed and len(places) > 1 and bool(motors_of(spec))
+    return scene.profile.imposes_speed and (len(places) > 1 or scene.aborted is not None) and bool(motors_of(spec))
 
 
 def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
@@ -124,7 +124,9 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
             creep = creep_of(spec, line)
             curves = {name: on_converter(scene, drive, creep[name]) for name, drive in spec.all_drives.items()}
             pulls = {name: at_rest(curve) for name, curve in curves.items()}
+            aborted = scene.aborted
             latest = max(drive.delay for drive in spec.all_drives.values())
+            latest += aborted.run + aborted.pause if aborted else 0.0
             return Moving(spec, scene, line, pulls, None, 0.0, latest + window, latest + rise, math.nan, curves)
 
         def imposed(time: float) -> float:

@@ -1,7 +1,7 @@
 """How a designer writes a belt conveyor."""
 
-from collections.abc import Iterator, Sequence
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -22,6 +22,7 @@ from ptmcalc.spec.fields import (
     FactorFromOne,
     Fraction,
     Inertia,
+    Length,
     PositiveAcceleration,
     PositiveAngle,
     PositiveEnergy,
@@ -202,6 +203,8 @@ class ConveyorChecks(CheckSettings):
     """maximum residual oscillation of the first belt mode after the start profile, relative to a step"""
     resonance_band: Annotated[Fraction, Limit()] = 0.15
     """required separation of the `ripple` of a drive from the natural frequencies of the belt"""
+    run_back: Annotated[Length, Limit()] = 0.1
+    """permissible run-back distance of the belt in an aborted start; an engineering choice"""
     slip_heat: Annotated[PositiveEnergy | None, Limit()] = None
     """maximum slip heat of a pulley in one scene"""
 
@@ -241,16 +244,6 @@ class Start(ConveyorScene, TransientScene):
     """initial state of the belt: with the tensions of steady running, or relaxed after a long standstill"""
     aborted: Aborted | None = None
     """a start aborted before the final start"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """Only a torque can be broken off."""
-        yield from super().conflicts(given)
-        profile = given.block("profile")
-        if "aborted" not in given or profile is None or profile.word("shape") in ("step", "curve", None):
-            return
-        if profile.word("control") != "torque":
-            yield Conflict(("aborted",), "an imposed speed is not aborted", "write `control: torque`")
 
 
 class Stopping(ConveyorScene, TransientScene):
@@ -469,7 +462,7 @@ def _moving_tail(given: Given) -> Iterator[Conflict]:
 
 
 def _without_curves(given: Given) -> Iterator[Conflict]:
-    """A start along the motors' curves needs the curve of every motor."""
+    """A start along the motors' curves needs the curve of every motor, and so does an aborted one of converters."""
     several, one = given.raw.get("drives"), given.raw.get("drive")
     drives = list(several.values()) if isinstance(several, dict) else [one]
     motors = [drive.get("motor") for drive in drives if isinstance(drive, dict)]
@@ -481,6 +474,15 @@ def _without_curves(given: Given) -> Iterator[Conflict]:
             reason = "a motor has no `curve` to follow"
             hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
             yield Conflict(("scenes", index, "start", "profile", "shape"), reason, hint)
+        elif isinstance(profile, dict) and scene is not None and "aborted" in scene.raw and _of_speed(profile):
+            reason = "an aborted start at imposed speed requires the curves of all motors"
+            hint = "add `power: 90 kW` and `poles: 4` to the motor, or write `control: torque`"
+            yield Conflict(("scenes", index, "start", "aborted"), reason, hint)
+
+
+def _of_speed(profile: Mapping[Any, Any]) -> bool:
+    """Whether a profile as the file gives it is one of the speed."""
+    return profile.get("shape") not in (None, "step", "curve") and profile.get("control") != "torque"
 
 
 def _without_spacing(given: Given) -> Iterator[Conflict]:

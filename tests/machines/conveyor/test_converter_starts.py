@@ -120,3 +120,53 @@ def test_the_belt_ends_in_the_load_sharing_of_steady_running() -> None:
     booster = np.array(motion.tail.on) - np.array(motion.tail.off)
     assert float(booster[-400:].mean()) == pytest.approx(steady()["booster"], rel=0.06)
     assert check_of(scene("cosine"), "CNV104").verdict is Verdict.PASS
+
+
+ABORTED, PAUSE = 3.0, 8.0
+LEVEL = replace(RIG, sections=((500.0, 0.0),), stiffness=6e6, drives={"head": RIG.drives["head"]}, tension=45e3)
+
+
+@cache
+def level(count: int = ELEMENTS) -> Motion:
+    """A level belt whose only drive is switched off early in its start."""
+    whole = LEVEL.resistance()
+    drive = LEVEL.drives["head"]
+    rig = replace(LEVEL, drives={"head": replace(drive, torque=whole / (drive.force / drive.torque))})
+
+    def moved(time: float, speed: float) -> float:
+        return pull("head", speed, SHAPES["cosine"](time / RISE)) if time < ABORTED else 0.0
+
+    holds = {"head": rig._held({"head": moved}, "head", whole)}
+    lengths = rig.lengths()
+    return simulate(
+        rig.plan(lengths, {"head": moved}, holds=holds), count, ABORTED + PAUSE, rig.running(lengths, count), 0.0
+    )
+
+
+def aborted(**more: Any) -> SceneReport:
+    profile = {"shape": "cosine", "time": f"{RISE} s"}
+    again = {"run": f"{ABORTED} s", "pause": f"{PAUSE} s"}
+    data = LEVEL.data({"type": "start", "profile": profile, "aborted": again}, accuracy="1 %") | more
+    curve = {"type": "induction", "power": f"{POWERS['head']} W", "speed": f"{RATED} rad/s", "overload": OVERLOAD}
+    data["drive"]["motor"] |= {"curve": curve | {"synchronous_speed": f"{SYNCHRONOUS} rad/s"}}
+    return scene_of(report_of(data))
+
+
+def test_a_level_belt_runs_back_by_its_stretch_after_an_aborted_start() -> None:
+    motion = level()
+    belt = np.array(motion.head.belt)
+    way = np.concatenate([[0.0], np.cumsum((belt[1:] + belt[:-1]) / 2)]) * float(motion.times[1])
+    scene, back = aborted(), float((np.maximum.accumulate(way) - way).max())
+    for name, value in (("run_back_distance", back), ("run_back_speed", float(-belt.min()))):
+        one = load_of(scene, name).estimate
+        assert one.low <= value <= one.high
+        assert one.bar < 0.3 * value
+    judged = check_of(scene, "CNV124")
+    assert judged.verdict is Verdict.FAIL
+    assert judged.blame.path == ("scenes", 0, "aborted")
+
+
+def test_a_backstop_keeps_the_belt_where_it_is() -> None:
+    """Nothing is left to check."""
+    scene = aborted(backstop={"torque": "20 kN*m"})
+    assert "CNV124" not in {one.code for one in scene.checks}

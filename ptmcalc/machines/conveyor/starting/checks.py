@@ -7,6 +7,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.machines.conveyor.governing_keys import starting_torque_key
+from ptmcalc.machines.conveyor.loads import RUN_BACK_DISTANCE, may_run_back
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.machines.conveyor.starting.loads import allowed_acceleration
 
@@ -270,4 +271,43 @@ START: Check[Conveyor, Start] = Check(
     why="A drive that cannot move the belt stalls, and its motors overheat.",
     formula="n M i eta/R > W   (torque)      n M i eta/R >= max(m a + S_on - S_off)   (imposed speed)",
     source="lecture notes Kramatorsk 2007",
+)
+
+
+# -- aborted starts -------------------------------------------------------------------------------------------------
+
+
+def _run_back_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """Permissible run-back distance of an aborted start, 0.1 m by default.
+
+    **Range** an aborted start without a backstop at all drives.
+    **Error** none: a chosen limit.
+    **Source** engineering choice; the stretch at the drive pulley that a short belt releases.
+    """
+    return Estimate.exact(spec.checks.run_back)
+
+
+def _run_back_checks(spec: Conveyor, scene: Start) -> Checks:
+    if may_run_back(spec, scene):
+        yield RUN_BACK
+
+
+RUN_BACK: Check[Conveyor, Start] = Check(
+    code="CNV124",
+    title="belt run-back distance, aborted start",
+    question="Does the belt stay where it is when a start is aborted?",
+    failure="belt runs back after the aborted start",
+    scenes=frozenset({Start}),
+    loads=(RUN_BACK_DISTANCE,),
+    sense=Sense.AT_MOST,
+    limit=_run_back_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("scenes", list(spec.all_scenes).index(scene), "aborted"),
+    repair=no_repair,
+    each=_run_back_checks,
+    what="The backward travel of the belt at each drive after an aborted start is at most the limit `checks.run_back`.",
+    why="The stretch that a start stores in the belt drives the pulleys backward, also on a level conveyor. Material"
+    " is carried to the tail, and the motors restart against the backward motion. A `backstop` prevents it.",
+    formula="max over t of (max of s up to t - s(t)) <= limit",
+    source="simulation of the belt; the limit is an engineering choice",
 )

@@ -10,6 +10,7 @@ from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.keys.route import Curve
+from ptmcalc.machines.conveyor.loads import RUN_BACK_DISTANCE, RUN_BACK_SPEED, may_run_back
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, starting_force
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Start
@@ -96,6 +97,8 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
     if case.brings_to_rest:
         values |= _rest(case, belt, drawn.times)
         values |= _longest_way(case, drawn, values)
+    if isinstance(case.scene, Start) and may_run_back(case.spec, case.scene):
+        _run_back(found, case, drawn, step)
     if isinstance(case.scene, Start) and case.scene.profile.imposes_speed:
         _asked(found, case, drawn, ready)
     return found
@@ -147,6 +150,19 @@ def _in_curve(line: BeltLine, drawn: Drawn, ready: Set, curve: Curve) -> float:
     touched = (places[:-1] <= curve.tangent) & (places[1:] >= -curve.tangent)
     touched[: ready.course.tail] = False
     return float(drawn.highest[touched].max())
+
+
+def _run_back(found: OneGrid, case: Moving, drawn: Drawn, step: float) -> None:
+    """How far and how fast the belt at the drives runs back."""
+    lost, speed = np.zeros(len(drawn.times)), np.zeros(len(drawn.times))
+    places = {drive.at for drive in case.spec.all_drives.values()}
+    for history in (drawn.head, drawn.tail) if "tail" in places else (drawn.head,):
+        gone = np.concatenate([[0.0], np.cumsum((history.belt[1:] + history.belt[:-1]) / 2)]) * step
+        lost, speed = np.maximum(lost, np.maximum.accumulate(gone) - gone), np.maximum(speed, -history.belt)
+    for name, values in ((RUN_BACK_DISTANCE, lost), (RUN_BACK_SPEED, speed)):
+        found.traces[name] = trace = Trace(values, step)
+        value, at = trace.extreme()
+        found.values[name] = value, {"time": at}
 
 
 def _asked(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:

@@ -16,6 +16,8 @@ from ptmcalc.machines.conveyor.loads import (
     GRIP,
     LOWEST,
     OF_STOP,
+    RUN_BACK_DISTANCE,
+    RUN_BACK_SPEED,
     SLIPS,
     TAKEUP_WAYS,
     TENSIONS,
@@ -109,6 +111,8 @@ def moved(
     rest by what a wave of that size makes of its speed; a belt that slips on its braked pulley has neither bound:
 
         ds <= change L_loop/EA        dt <= 2 change/(Z |a|),   a the `slowing` of the rigid body [m/s^2]
+
+    The speed of a wave of that size is 2 change/Z at most.
     """
     found: dict[str, Interval] = {}
     fixed = off or not line.keeps_run_off
@@ -149,8 +153,10 @@ def moved(
             found[name] = moved_sag(line, loads, change.smallest)
         elif kind in DRIVE and asked:
             found[name] = moved_drive(loads, 2 * asked * most)[kind]
-        elif kind in WAYS_OF_STOP or kind in TAKEUP_WAYS:
+        elif kind in WAYS_OF_STOP or kind in TAKEUP_WAYS or kind == RUN_BACK_DISTANCE:
             found[name] = Interval(-stretch, stretch)
+        elif kind == RUN_BACK_SPEED:
+            found[name] = Interval(-2 * most / least, 2 * most / least)
         elif kind == "stop_time":
             found[name] = Interval(-delay, delay)
         elif kind in CHANGED_BY_MOTION and not (kind in SLIPS and holds(name)):
