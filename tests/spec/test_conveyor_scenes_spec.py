@@ -212,7 +212,7 @@ def test_an_imposed_speed_is_not_broken_off(shape: str) -> None:
     problem = problem_in(text)
     assert (problem.code, dotted(problem.path)) == ("SPC113", "scenes[0].aborted")
     assert place(problem) == place_of(text, "aborted:")
-    assert problem.hint == "write `control: torque`"
+    assert problem.hint == "add `power: 90 kW` and `poles: 4` to the motor, or write `control: torque`"
     mended = text.replace("time: 8 s}", "time: 8 s, control: torque}")
     assert [scene.type for scene in read(mended).spec.all_scenes][:1] == ["start"]  # type: ignore[union-attr]
 
