@@ -143,6 +143,8 @@ class Backstop(Fragment):
     """rated torque, on the shaft of the head pulley"""
     reserve: Annotated[FactorFromOne, Limit()] = USUAL_RESERVE
     """rated torque / rollback torque; 1.25 to 1.75 in practice"""
+    stalled_motor: Literal["on", "off"] = "off"
+    """whether the backstop must hold what the motors at the head pull when a jammed belt stalls them"""
 
 
 class TailDrum(Fragment):
@@ -349,6 +351,7 @@ class Conveyor(MachineSpec):
         yield from exactly_one(given, "drive", "drives")
         yield from names_of_parts(given, "drives", "brakes")
         yield from _without_curves(given)
+        yield from _stalled_without_curves(given)
         drives = given.raw.get("drives")
         if (
             isinstance(drives, dict)
@@ -478,6 +481,23 @@ def _without_curves(given: Given) -> Iterator[Conflict]:
             reason = "an aborted start at imposed speed requires the curves of all motors"
             hint = "add `power: 90 kW` and `poles: 4` to the motor, or write `control: torque`"
             yield Conflict(("scenes", index, "start", "aborted"), reason, hint)
+
+
+def _stalled_without_curves(given: Given) -> Iterator[Conflict]:
+    """The largest torque of a motor is that of its curve."""
+    backstop = given.block("backstop")
+    if backstop is None or backstop.word("stalled_motor") != "on":
+        return
+    several, one = given.raw.get("drives"), given.raw.get("drive")
+    drives = several if isinstance(several, dict) else {"": one}
+    for name, drive in drives.items():
+        if not isinstance(drive, dict) or drive.get("at", "head") != "head":
+            continue
+        motor = drive.get("motor")
+        if isinstance(motor, dict) and not gives_curve(motor):
+            path = ("drives", name, "motor") if name else ("drive", "motor")
+            reason = "`stalled_motor` requires the curve of the motor"
+            yield Conflict(path, reason, "add `power: 90 kW` and `poles: 4`, or write `stalled_motor: off`")
 
 
 def _of_speed(profile: Mapping[Any, Any]) -> bool:

@@ -47,7 +47,8 @@ BACKSTOP = rollback_check(
     _backstop_limit,
     _holding_key,
     what="Idler resistance, backstop and closed brakes hold the force of the load on the stopped belt. The rollback"
-    " torque is at most the torque of backstop and brakes, divided by the reserve.",
+    " torque is at most the torque of backstop and brakes, divided by the reserve. With `stalled_motor: on`, the"
+    " backstop also holds the pull of motors that stall at their largest torque.",
     why="A belt that rolls back buries its tail and drives the motors backward.",
     formula="(slope resistance of the load - idler friction at standstill) D/2 <= (M_backstop + M_brakes)/reserve",
 )

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.motor_torque import torques_up_to
 from ptmcalc.components.run_back import runs_back
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
@@ -12,6 +13,7 @@ from ptmcalc.machines.conveyor.model import (
     belt_line,
     special_resistance,
 )
+from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import (
     Coast,
     Conveyor,
@@ -29,21 +31,41 @@ def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: i
 
         M = (H - r W_idlers) D/2,  not below 0;   r = `rest_factor`
 
+        M = sum n M_max i eta D/(2 R)   for `stalled_motor: on`, if that is larger
+
     Only rising sections are loaded (worst case). Only the idler resistance counts at standstill: resistance of loading
-    points, skirt plates and cleaners is not guaranteed.
+    points, skirt plates and cleaners is not guaranteed. The motors of a jammed belt stretch it with their largest
+    torque; once they are switched off, the backstop holds that pull.
 
     **Range** standstill; without the impact of a backstop that engages with backlash.
     **Error** exact except for the friction coefficient.
     **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
+    Stalled motors: practice of backstop manufacturers; derived: all of the pull acts on the backstop, no friction
+    relieves it.
     """
     force = max(
         -_rest(spec, Hold(load=load)) for load in (scene.load, "uphill" if scene.load == "full" else scene.load)
     )
-    torque = float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))
+    diameter = spec.main_drive.drum.diameter
+    torque = float(stopping.backstop_torque(force, diameter, 1.0))
+    if spec.backstop is not None and spec.backstop.stalled_motor == "on":
+        torque = max(torque, _stalled_force(spec) * diameter / 2)
     found = Result({"backstop_torque": Found(Estimate.exact(torque))}, work=1)
     if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
         return found
     return replace(found, failures=(runs_back("CNV109", "belt", torque),))
+
+
+def _stalled_force(spec: Conveyor) -> float:
+    """Pull of the motors at the head at their largest torque [N]."""
+    found = 0.0
+    for drive in spec.all_drives.values():
+        curve = drive.running_curve
+        if drive.at == "head" and curve is not None:
+            most = float(torques_up_to(curve, filled(curve.no_load_speed)).max())
+            turns = drive.gear.ratio / (drive.drum.diameter / 2)
+            found += drive.motor.count * most * turns * filled(drive.gear.efficiency)
+    return found
 
 
 def _rest(spec: Conveyor, scene: Hold) -> float:
