@@ -3,12 +3,12 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-
-from ptmcalc.laws import start_profile
+from itertools import pairwise
 
 SHAPES = "ramp", "cosine", "parabolic"
-"""Rises of the reference of a converter that have a formula (`laws.start_profile`), in the order in which C knows
-them."""
+"""Rises of the reference of a converter that have a formula, in the order in which C knows them."""
+Shape = str | tuple[tuple[float, float], ...]
+"""One of them, or points (share of the rise time, share of the reference) with straight lines between them."""
 _BELOW = 1 - 1e-9
 """Speed at the end of a stage relative to that at which the next one begins [1]; a numerical choice near 1."""
 
@@ -88,7 +88,7 @@ class MotorForce:
     again: float = 0.0
     reference: float = 0.0
     ramp: float = 0.0
-    shape: start_profile.Shape = "ramp"
+    shape: Shape = "ramp"
     fill: float = 0.0
     soft_from: float = 1.0
     soft_time: float = 0.0
@@ -105,7 +105,7 @@ class MotorForce:
                 break
             late += 1
         if self.ramp > 0:
-            turning += self.reference * (1 - float(start_profile.rise(self.shape, self.ramp, since)))
+            turning += self.reference * (1 - self._reference_at(since / self.ramp))
         torque, rise = self.stages[late].at(turning)
         factor = (self.drives if torque > 0 else self.brakes) * self._rises(since)
         return factor * torque, factor * rise * self.turns
@@ -117,6 +117,19 @@ class MotorForce:
         return [
             mark for speed in at if 0 < speed < math.inf for mark in (speed / self.turns, speed / self.turns * _BELOW)
         ]
+
+    def _reference_at(self, part: float) -> float:
+        """Share of the reference at a share of its rise time: u, sin^2(pi u/2), two parabolas, or between points."""
+        if part >= 1:
+            return 1.0
+        if not isinstance(self.shape, str):
+            (before, low), (after, high) = next(pair for pair in pairwise(self.shape) if part <= pair[1][0])
+            return low + (high - low) * (part - before) / (after - before)
+        if self.shape == "cosine":
+            return math.sin(math.pi / 2 * part) ** 2
+        if self.shape == "parabolic":
+            return 2 * part**2 if part < 0.5 else 1 - 2 * (1 - part) ** 2
+        return part
 
     def _rises(self, since: float) -> float:
         """Part of the torque that acts so long after switching on [1]."""
