@@ -53,7 +53,7 @@ def changed(data: dict[str, Any], **changes: Any) -> dict[str, Any]:
         if value is None:
             node.pop(key, None)
         else:
-            node[key] = value
+            node[key] = copy.deepcopy(value)
     return data
 
 
