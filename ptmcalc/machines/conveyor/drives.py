@@ -13,7 +13,7 @@ from ptmcalc.machines.conveyor.load_sharing import steady_forces
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_line_filled, drive_force
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, PlacedDrive, Start
-from ptmcalc.numerics.belt.curve import MotorForce
+from ptmcalc.numerics.belt.curve import CurveStage, MotorForce
 from ptmcalc.numerics.belt.library import forces
 
 _NEARLY, _LEAST_UP_TO = 0.98, 0.9
@@ -121,21 +121,13 @@ def along_curve(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorFo
 
     `creep` is the part by which the pulley is slower than the belt that comes to the drives of its place [1].
     """
-    curve, ratio, starter, coupling = drive.start_curve, drive.gear.ratio, drive.starter, drive.fluid_coupling
+    curve, starter, coupling = drive.start_curve, drive.starter, drive.fluid_coupling
     assert curve is not None
     stages = curve.curve_stages
     if isinstance(starter, StarDelta):
         stages = in_star(stages, starter.switch_over * filled(curve.no_load_speed))
-    efficiency, turns = filled(drive.gear.efficiency), ratio / (drive.drum.diameter / 2)
-    aborted = scene.aborted
-    return MotorForce(
-        stages,
-        (1 - creep) * turns,
-        drive.motor.count * turns * efficiency,
-        drive.motor.count * turns / efficiency,
-        delay=drive.delay,
-        off=aborted.run if aborted else -math.inf,
-        again=drive.delay + (aborted.run + aborted.pause if aborted else 0.0),
+    return replace(
+        _switched(scene, drive, stages, creep),
         reference=curve.speed if isinstance(curve, ConverterMotor) else 0.0,
         ramp=curve.ramp_time if isinstance(curve, ConverterMotor) else 0.0,
         fill=coupling.time_constant if coupling is not None else 0.0,
@@ -147,27 +139,37 @@ def along_curve(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorFo
 def on_converter(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorForce:
     """Rim force of a drive and its slope over the rim's speed, whose converter follows the profile of a start.
 
-    A converter with a constant ratio of voltage and frequency moves the curve of its motor along the speed: the torque
-    is that of the slip below the synchronous speed w_0 p(t), with the profile p(t). After an aborted start, the profile
-    begins anew.
+    F as in `along_curve` at the speed w + w_0 (1 - p(t))
 
-    `creep` as in `along_curve`.
+    The converter keeps the ratio of voltage and frequency: the slip speed below the synchronous speed w_0 p(t) gives
+    the torque. After an aborted start, the profile p(t) begins anew.
+
+    **Range** motors with a curve; filled couplings; up to rated frequency, without a torque limit of the converter.
+    **Error** none of its own; at low frequency the stator resistance reduces the real torque.
+    **Source** derived: induction motor at constant flux.
     """
-    curve, profile = drive.running_curve, scene.profile
+    curve = drive.running_curve
     assert curve is not None
+    return replace(
+        _switched(scene, drive, curve.curve_stages[-1:], creep),
+        reference=filled(curve.no_load_speed),
+        ramp=scene.profile.rise_time,
+        shape=scene.profile.rise,
+    )
+
+
+def _switched(scene: Start, drive: PlacedDrive, stages: Sequence[CurveStage], creep: float) -> MotorForce:
+    """The motors of a drive with the times at which a start switches them."""
     efficiency, turns = filled(drive.gear.efficiency), drive.gear.ratio / (drive.drum.diameter / 2)
     aborted = scene.aborted
     return MotorForce(
-        curve.curve_stages[-1:],
+        stages,
         (1 - creep) * turns,
         drive.motor.count * turns * efficiency,
         drive.motor.count * turns / efficiency,
         delay=drive.delay,
         off=aborted.run if aborted else -math.inf,
         again=drive.delay + (aborted.run + aborted.pause if aborted else 0.0),
-        reference=filled(curve.no_load_speed),
-        ramp=profile.rise_time,
-        shape=profile.rise,
     )
 
 

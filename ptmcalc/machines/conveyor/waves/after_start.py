@@ -164,7 +164,7 @@ class _After:
                 for side in (self.least, self.most)
             )
             apart = not pull_together(spec, self.line, place)
-            if apart:  # nobody knows how drives that work against each other share what waves add
+            if apart:  # how drives that work against each other share the force of a wave is not known
                 least[1:-1], most[1:-1] = -math.inf, math.inf
             for index, name in enumerate(names):
                 yield of("tension_run_on_max", name), float(most[index])
