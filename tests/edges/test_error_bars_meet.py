@@ -5,7 +5,7 @@ from collections.abc import Callable
 from itertools import combinations
 
 import pytest
-from support.random_machines import KINDS, SECONDS, all_on, longer, machine, meet, settled
+from support.random_machines import KINDS, all_on, longer, machine, meet, settled
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
@@ -15,9 +15,9 @@ from ptmcalc.spec.scene import Scene
 
 SEED = int(os.environ.get("PTMCALC_SEED", "37"))
 NUMBER = 20
-QUICK = 0.4
-"""Predicted seconds of a scene of these; the study takes more (`SECONDS`), and all settings of each."""
-AUTOMATIC = "automatic"
+QUICK, STUDY = 0.4, 1.0
+"""Predicted seconds of a scene of these and of the study, which takes all settings of each."""
+AUTOMATIC, ALL_ON = "automatic", "all effects on"
 
 Loads = dict[str, Estimate]
 Asked = Callable[[], Loads]
@@ -33,7 +33,7 @@ def settings(kind: AnyKind, spec: MachineSpec, scene: Scene, seconds: float) -> 
 
         return found
 
-    asked = {AUTOMATIC: loads(), "all effects on": loads(all_on(kind, spec, scene))}
+    asked = {AUTOMATIC: loads(), ALL_ON: loads(all_on(kind, spec, scene))}
     for accuracy in (0.05, 0.01, 0.001):
         asked[f"accuracy {accuracy:g}"] = loads(spec.model_copy(update={"accuracy": accuracy}))
     for budget in (seconds / 400, seconds / 20):
@@ -44,13 +44,13 @@ def settings(kind: AnyKind, spec: MachineSpec, scene: Scene, seconds: float) -> 
 
 
 def disjoint(kind: AnyKind, seed: int, index: int, *, whole: bool = True) -> list[str]:
-    """Loads of a random machine whose intervals do not intersect: of all settings, or of two with little work."""
+    """Loads of a random machine whose intervals do not intersect: of all settings, or of three with little work."""
     made = machine(kind, seed, index)
     wrong = []
     for number, scene in enumerate(made.spec.all_scenes):
-        asked = settings(kind, made.spec, scene, SECONDS if whole else QUICK)
+        asked = settings(kind, made.spec, scene, STUDY if whole else QUICK)
         others = [name for name in asked if name != AUTOMATIC]
-        chosen = asked if whole else (AUTOMATIC, others[(index + number) % len(others)])
+        chosen = asked if whole else dict.fromkeys((AUTOMATIC, ALL_ON, others[(index + number) % len(others)]))
         try:
             found = [(name, asked[name]()) for name in chosen]
         except NumericsError as error:
