@@ -33,8 +33,8 @@ _MOST_SECONDS = 2.5
 """Predicted seconds of the finest grid up to which a window is made longer; a numerical choice. A larger value follows
 longer stops and takes longer; a smaller one leaves more loads without an error bar."""
 _SECONDS = {"straight": (3e-6, 5e-9), "giving": (3e-6, 3.7e-8)}
-"""Predicted seconds per step, and per step and cell, without and with sag or damping: measured on 1800 runs of 124 random
-conveyors with the loads of each step included, median. Wrong values change the order of the solvers and the length of
+"""Predicted seconds per step, and per step and cell, without and with sag or damping: medians of 1800 runs of 124
+random conveyors, evaluation of the loads included. Wrong values change the order of the solvers and the length of
 windows."""
 _PER_RUN = 2e-3
 """Predicted seconds of a run in addition to its steps; measured with `_SECONDS`."""
