@@ -93,9 +93,15 @@ def test_the_stopping_distance_limits_an_emergency_stop_too() -> None:
     assert one.limit.value == 20
 
 
-@pytest.mark.parametrize("name", ["conveyor/decline-slips", "conveyor/recursion"])
-def test_a_belt_that_slips_and_never_stops_fails_with_its_cure(name: str) -> None:
-    found = report_on(name)
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("conveyor/decline-slips", ("rest_factor: 0.5", "rest_factor: 0.5, secondary: 1.2")),
+        ("conveyor/recursion", None),
+    ],
+)
+def test_a_belt_that_slips_and_never_stops_fails_with_its_cure(name: str, given: tuple[str, str] | None) -> None:
+    found = report_on(name, *[given] if given else [])
     for code in ("CNV106", "CNV107"):
         one = judged(found, code)
         assert one.verdict is Verdict.FAIL
@@ -104,6 +110,13 @@ def test_a_belt_that_slips_and_never_stops_fails_with_its_cure(name: str) -> Non
         assert "does not stop" in one.reason
         assert "increase the take-up tension" in one.reason
         assert one.blame.path == ("takeup", "tension")
+
+
+def test_the_stopping_time_is_undecided_where_an_assumed_resistance_stops_the_belt() -> None:
+    """With 1.31 for the secondary resistances the belt stops after 140 s, with the assumed 1.2 it does not."""
+    one = judged(report_on("conveyor/decline-slips"), "CNV107")
+    assert one.verdict is Verdict.UNDECIDED
+    assert "`resistance.secondary`" in one.reason
 
 
 def test_more_take_up_tension_stops_it() -> None:

@@ -19,7 +19,8 @@ together stands a pulse that no grid sees, differing from what was before or is 
 there no tension is known better than F.
 
 What is computed of tensions has the bar that its law makes of theirs. A drum begins and ceases to slip from a step to a
-step: to its way of slip come two of the longest ways in a step, and to its heat what it heats on them.
+step: to its way of slip come two of the longest ways in a step, and to its heat what it heats on them; to time and
+distance of a stop in which it slips come two steps and the uncertainty of its first standstill (`rest_of`).
 
 The order is taken from the seeded samples of `tests/coverage/test_network_intervals.py`: of 2800 extremes in 290
 scenes without such a stop, none took more than 0.8 of its bar; of 500 in 65 scenes with one, none more than 0.6.
@@ -27,13 +28,14 @@ scenes without such a stop, none took more than 0.8 of its bar; of 500 in 65 sce
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from ptmcalc.base.estimate import NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import capstan
-from ptmcalc.machines.conveyor.loads import GRIP, SLIPS, TENSIONS
+from ptmcalc.machines.conveyor.loads import GRIP, OF_STOP, SLIPS, TENSIONS, WAYS_OF_STOP
 from ptmcalc.machines.conveyor.model import grips
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.rigid_stop import deceleration
@@ -54,6 +56,9 @@ one step. A larger value hides real gaps; 0 reports the height of every front as
 _STEPS_OF_SLIP = 2
 """Longest slip distances of one step that the error bar of a slip distance includes [1]. Derived: a pulley begins and
 ends to slip at a step each. A smaller value omits one end."""
+_FEWEST = 4
+"""Minimum number of steps of a stop of which a mean speed is known [1]; a numerical choice. A larger value leaves very
+short stops without an error bar."""
 _ROUNDING = 1e-11
 """Rounding of sums and differences of tensions, relative to the largest [1]. A numerical choice above the resolution
 2e-16 of the floating point times the number of additions. A larger value widens bars that are otherwise 0."""
@@ -61,9 +66,18 @@ _MOVES = frozenset({*TENSIONS, "tension_run_off_min", "starting_force_needed"})
 """Families of forces whose traces tell what is still to come of them."""
 
 
-def bars(case: Moving, grids: Grids, front: float) -> dict[str, Interval]:
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """How uncertain the first standstill of the belt at the head is: time [s] and distance [m]."""
+
+    time: float
+    distance: float
+
+
+def bars(case: Moving, grids: Grids, front: float, rest: Rest) -> dict[str, Interval]:
     """Bars of all loads of the finest grid, to either side: a drum that transmits little may have any reserve above its
-    least. `front` is the height F of the module [N], 0 where nothing jumps."""
+    least. `front` is the height F of the module [N], 0 where nothing jumps; `rest`, how uncertain the first standstill
+    of a stop is in which a pulley slips."""
     fine = grids[-1].values
     found: dict[str, Interval] = {}
     for name in fine:
@@ -74,6 +88,7 @@ def bars(case: Moving, grids: Grids, front: float) -> dict[str, Interval]:
     moved = _moved(case, fine, change)
     found |= _of_laws(case, grids, found, front)
     found |= _of_slip(grids)
+    found |= _of_slipping_stop(case, grids, rest)
     found |= _of_grip(case, grids, found, moved)
     for name, (value, _) in fine.items():
         if family(name) in SLIPS and value == 0 and not _holds(fine, found, name):
@@ -81,6 +96,31 @@ def bars(case: Moving, grids: Grids, front: float) -> dict[str, Interval]:
         elif name not in found:
             found[name] = _either(max(_still_to_come(grids, name), moved.get(name, NOTHING).high))
     return {name: _rounded(one, name, fine) for name, one in found.items()}
+
+
+def rest_of(drawn: Drawn) -> Rest:
+    """Uncertainty of the first standstill of a belt whose speed at the head swings by s about a falling mean.
+
+        dt = s/a,   ds = s^2/(2 a)        a, deceleration of the mean
+
+    The head first stands still when the mean speed is between 0 and s. If a pulley slips, the mean falls slowly and a
+    small change makes it one swing earlier or later.
+
+    **Range** any stop; infinite where the belt does not slow down, 0 where it does not come to rest.
+    **Error** the mean is a straight line over the second half of the stop.
+    **Source** kinematics; verified by `tests/machines/conveyor/test_slipping_stops.py`.
+    """
+    belt, times = drawn.head.belt, drawn.times
+    stands = belt <= 0
+    if not stands.any():
+        return Rest(0.0, 0.0)
+    last = int(stands.argmax()) + 1
+    part = slice(last // 2, last)
+    slope, level = np.polyfit(times[part], belt[part], 1) if last >= _FEWEST else (0.0, 0.0)
+    if slope >= 0:
+        return Rest(math.inf, math.inf)
+    swing = float(np.ptp(belt[part] - slope * times[part] - level))
+    return Rest(swing / -slope, swing**2 / (-2 * slope))
 
 
 def front_at(drawn: Drawn) -> float:
@@ -174,6 +214,20 @@ def _of_slip(grids: Grids) -> dict[str, Interval]:
     return found
 
 
+def _of_slipping_stop(case: Moving, grids: Grids, rest: Rest) -> dict[str, Interval]:
+    """Error bars of time and distances of a stop in which a pulley slips on every grid; empty for other scenes."""
+    fine = grids[-1]
+    if not all(any(one.slid.values()) for one in grids):
+        return {}
+    ends = _STEPS_OF_SLIP * fine.traces["tension_run_on_max"].step
+    more = dict.fromkeys(WAYS_OF_STOP, ends * case.speed + rest.distance) | {"stop_time": ends + rest.time}
+    return {
+        name: _either(_still_to_come(grids, name) + more[name])
+        for name, (value, _) in fine.values.items()
+        if name in OF_STOP and math.isfinite(value)
+    }
+
+
 def _of_grip(
     case: Moving, grids: Grids, found: Mapping[str, Interval], moved: Mapping[str, Interval]
 ) -> dict[str, Interval]:
@@ -221,6 +275,6 @@ def _holds(fine: Values, found: Mapping[str, Interval], name: str) -> bool:
 
 def _rounded(one: Interval, name: str, fine: Values) -> Interval:
     """A bar with rounding: of the largest tension, of which all tensions are sums and differences, or of the load."""
-    size = fine["tension_max" if family(name) in TENSIONS or name == "tension_run_off_min" else name][0]
+    size = fine["tension_max" if family(name) in {*TENSIONS, "tension_run_off_min"} else name][0]
     rounding = _ROUNDING * abs(size) if math.isfinite(size) else 0.0
     return Interval(one.low - rounding, one.high + rounding)

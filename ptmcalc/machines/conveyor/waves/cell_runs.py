@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Found, family
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import SLIPS
+from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import ConveyorScene, Jam, Start
 from ptmcalc.machines.conveyor.waves import cell_bars
@@ -87,14 +87,18 @@ def grid_loads(
     case: Moving, carried: frozenset[str], level: int, whole: bool = True
 ) -> tuple[dict[str, Found], list[CellRun]]:
     """Loads from three grids with their bars, and what the belt did on each."""
-    few, some, many = grids_of(case.scene, level)
-    coarsest = marched(case, carried, few, whole, many)
-    if whole and unfinished(case, coarsest.drawn):
-        case, whole = replace(case, window=float(coarsest.drawn.times[-1])), False
-    coarse, fine = (marched(case, carried, cells, whole, many) for cells in (some, many))
-    runs = [coarsest, coarse, fine]
+    grids = grids_of(case.scene, level)
+    runs: list[CellRun] = []
+    for cells in grids:
+        runs.append(marched(case, carried, cells, whole, grids[-1]))
+        if whole and unfinished(case, runs[-1].drawn):  # all three up to the time known of this one
+            case = replace(case, window=float(runs[-1].drawn.times[-1]))
+            runs = [marched(case, carried, one, False, grids[-1]) for one in grids]
+            break
+    coarsest, coarse, fine = runs
     front = cell_bars.front_at(fine.drawn) if _jumps(case.scene) else 0.0
-    bars = cell_bars.bars(case, (coarsest.loads, coarse.loads, fine.loads), front)
+    rest = cell_bars.rest_of(fine.drawn) if case.brings_to_rest else cell_bars.Rest(0.0, 0.0)
+    bars = cell_bars.bars(case, (coarsest.loads, coarse.loads, fine.loads), front, rest)
     found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.values.items()}
     return found, runs
 
@@ -151,7 +155,7 @@ def _slides(seen: Seen) -> bool:
 
 
 def _estimate(name: str, value: float, sides: Interval) -> Estimate:
-    least = 0.0 if family(name) in SLIPS else -math.inf
+    least = 0.0 if family(name) in SLIPS | OF_STOP else -math.inf
     bar = max(-sides.low, sides.high)
     if not math.isfinite(value):
         return Estimate.exact(value) if math.isfinite(bar) else Estimate(value, least, math.inf, numerical=math.inf)
