@@ -122,9 +122,8 @@ class Motor(Fragment):
         *before, last = self.stages
         torque = last.torque(at)
         for stage in reversed(before):
-            over_by_speed = at >= (np.inf if stage.until_speed is None else stage.until_speed)
-            over_by_time = since >= (np.inf if stage.until_time is None else stage.until_time)
-            torque = np.where(over_by_speed | over_by_time, torque, stage.torque(at))
+            over = at >= stage.until_speed if stage.until_speed is not None else since >= (stage.until_time or 0.0)
+            torque = np.where(over, torque, stage.torque(at))
         return torque
 
 

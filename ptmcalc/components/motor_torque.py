@@ -24,6 +24,23 @@ def torques_up_to(curve: AnyMotor, speed: float) -> FloatArray:
     return curve.torque(speeds, np.inf)
 
 
+def range_up_to(curve: AnyMotor, speed: float) -> tuple[float, float]:
+    """Smallest and largest torque of a motor that starts up to a speed [rad/s], bounds to either side [N*m].
+
+    Each stage at any speed up to that at which it ends: a swinging load may slow the motor down again. Between two
+    steps of the speed a torque differs from theirs by no more than they differ from each other.
+    """
+    least, most = math.inf, -math.inf
+    for stage in curve.stages:
+        until = speed if stage.until_speed is None else min(stage.until_speed, speed)
+        torques = stage.torque(np.linspace(0.0, until, _LOOKS))
+        between = float(np.max(np.abs(np.diff(torques))))
+        least, most = min(least, float(np.min(torques)) - between), max(most, float(np.max(torques)) + between)
+        if until == speed and stage.until_time is None:
+            break
+    return least, most
+
+
 def overhauled_torque(curve: AnyMotor) -> float:
     """The most with which a motor brakes a load that drives it above its no-load speed, once its start is over [N*m].
 

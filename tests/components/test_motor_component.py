@@ -21,7 +21,7 @@ from ptmcalc.components.motor import (
     TableMotor,
 )
 from ptmcalc.components.motor_rating import braking_number_at, number_at
-from ptmcalc.components.motor_torque import overhauled_torque, overhauling_reserve
+from ptmcalc.components.motor_torque import overhauled_torque, overhauling_reserve, range_up_to
 from ptmcalc.spec.machine import replaced
 from ptmcalc.spec.shape import example_of, keys_of, measure_of
 
@@ -409,3 +409,27 @@ def test_the_reserve_of_braking_is_that_of_all_motors_over_the_load() -> None:
     motor = READER.validate_python({"type": "table", "points": points})
     assert overhauling_reserve(motor, 3, 30.0) == pytest.approx(2.0, rel=1e-12)
     assert overhauling_reserve(motor, 3, 0.0) == overhauling_reserve(motor, 3, -1.0) == math.inf
+
+
+def test_steps_that_end_by_speed_do_so_at_any_time() -> None:
+    """A long time after the start too, at which steps that end by time are over."""
+    motor = read(RHEOSTAT)
+    first = motor.stages[0]
+    assert first.until_speed is not None
+    below = 0.99 * first.until_speed
+    for time in (0.0, 1.0, math.inf):
+        assert motor.torque(below, time) == first.torque(below)
+    assert read(BY_TIME).torque(below, math.inf) == motor.stages[-1].torque(below)
+
+
+@pytest.mark.parametrize("data", [INDUCTION, RHEOSTAT, BY_TIME], ids=["induction", "rheostat", "by time"])
+def test_the_range_of_a_start_holds_the_torque_of_each_stage(data: dict[str, Any]) -> None:
+    motor = read(data)
+    top = motor.speed
+    least, most = range_up_to(motor, top)
+    for stage in motor.stages:
+        torques = stage.torque(np.linspace(0.0, min(stage.until_speed or top, top), 777))
+        assert least <= torques.min()
+        assert torques.max() <= most
+    assert least >= motor.stages[-1].torque(top) / 6 - 1
+    assert most <= 1.01 * max(float(stage.torque(np.linspace(0.0, top, 4000)).max()) for stage in motor.stages)

@@ -1,6 +1,7 @@
 """Rule 2: a motor `curve` of the file is followed in each scene and each check. A check whether a drive can start or
 lift reads the smallest surplus over the whole speed range; the mean of a curve decides nothing."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -40,6 +41,8 @@ class Starting:
     """checks whether it can start or lift"""
     mean: str = "mean_starting_torque"
     """key of a torque that does not change; empty where a motor is always a curve"""
+    rated: bool = False
+    """whether its file gives the power of the motor beside the curve"""
     holds: bool = False
     """whether a motor with a mean torque keeps full speed once it has it, and a curve that never falls does not"""
 
@@ -107,9 +110,9 @@ def _drivetrain(data: Data, torque: Data) -> Data:
 STARTING = {
     "conveyor": Starting(_conveyor, 700, 1480, ("CNV104",)),
     "chain_drive": Starting(_chain_drive, 250, 1470, ("CHN120", "CHN121")),
-    "hoist": Starting(_hoist, 95, 1400, ("HST114",), holds=True),
-    "crane slewing": Starting(_slewing, 18, 900, ("CRN101", "CRN102", "CRN118")),
-    "crane travelling": Starting(_travelling, 32, 1400, ("CRN150", "CRN160")),
+    "hoist": Starting(_hoist, 95, 1400, ("HST114",), rated=True, holds=True),
+    "crane slewing": Starting(_slewing, 18, 900, ("CRN101", "CRN102", "CRN118"), rated=True),
+    "crane travelling": Starting(_travelling, 32, 1400, ("CRN150", "CRN160"), rated=True),
     "crane overhead_stacker": Starting(_stacker("bridge_travel"), 40, 1400, ("CRN204",)),
     "crane rack_stacker": Starting(_stacker("travel"), 40, 1400, ("CRN204",)),
     "shaft": Starting(_shaft, 60, 1400, ("SHF103",), mean=""),
@@ -167,6 +170,29 @@ def test_a_curve_of_the_same_mean_that_falls_below_the_load_fails(kind: AnyKind,
     report = report_of(file_of(kind, {"curve": dipped(case.torque, case.top, at)}))
     assert set(verdicts(report, case.fails).values()) == {Verdict.FAIL}
     assert report.verdict == "fail"
+
+
+def slip_ring(case: Starting, step: float, smallest: float) -> Data:
+    """A slip-ring motor with one step of rotor resistance, rated for the starting torque at full speed; torques over
+    the rated torque."""
+    power = case.torque * case.top * math.pi / 30
+    return {
+        "type": "rheostat", "power": f"{power!r} W", "speed": f"{case.top!r} rpm", "overload": 2.5, "steps": [step],
+        "synchronous_speed": f"{case.top / 0.94!r} rpm", "smallest_torque": f"{smallest * case.torque!r} N*m",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(("step", "smallest", "fails"), [(3, 1.1, False), (40, 0.02, True)])
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.label)
+def test_each_step_of_a_slip_ring_motor_must_start_the_machine(
+    kind: AnyKind, step: float, smallest: float, fails: bool
+) -> None:
+    """The rotor alone would start each of them: what decides is the torque at which the resistance is cut out."""
+    case = STARTING[kind.label]
+    curve = slip_ring(case, step, smallest)
+    rated = {"power": curve["power"]} if case.rated else {}
+    found = set(verdicts(report_of(file_of(kind, {"curve": curve, **rated})), case.fails).values())
+    assert found == {Verdict.FAIL} if fails else Verdict.FAIL not in found
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.label)

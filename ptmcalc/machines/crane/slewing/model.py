@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_torque import range_up_to
 from ptmcalc.laws import bodies, brake, inertia, slewing
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
@@ -112,16 +113,12 @@ def ramp(spec: SlewingCrane) -> float | None:
 
 
 def torque_range(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float, float] | None:
-    """Smallest, largest and mean torque of a motor curve up to the speed of the crane, None without one [N*m].
-
-    Between sampled speeds a torque curve departs from its samples by no more than they differ from each other.
-    """
+    """Smallest, largest and mean torque of a motor curve up to the speed of the crane, None without one [N*m]."""
     curve, mean = spec.motor.curve, motor_torque(spec, scene)
     if curve is None or mean is None or motor_follows(spec):
         return None
-    torques = spec.motor.count * np.asarray(curve.torque(np.linspace(0.0, spec.speed * spec.gear.ratio, 4001), np.inf))
-    between = float(np.max(np.abs(np.diff(torques))))
-    return float(np.min(torques)) - between, float(np.max(torques)) + between, mean
+    least, most = range_up_to(curve, spec.speed * spec.gear.ratio)
+    return spec.motor.count * least, spec.motor.count * most, mean
 
 
 def least_torque(spec: SlewingCrane, scene: SlewingScene) -> float | None:
