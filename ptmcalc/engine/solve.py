@@ -35,7 +35,7 @@ value takes longer; 0 finds rough values."""
 _STEP = 0.01
 """Relative step of the search for the last value that passes at all levels [1]. A numerical choice: a smaller value
 finds that value more closely and takes longer."""
-REPAIR_SECONDS = 15.0
+REPAIR_SECONDS = 10.0
 """Predicted seconds of the search for a repair, and as many of its refinement; `solve` has no such limit. A numerical
 choice: a larger value finds more repairs and takes longer."""
 

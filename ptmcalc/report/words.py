@@ -64,7 +64,7 @@ def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
         suffix += f" ({digits(value * share)} {other})"
     if bar <= 5e-5 * abs(middle):
         return f"{digits(middle)}{suffix}"
-    if min(high - middle, middle - low) < 0.5 * bar:
+    if min(high - middle, middle - low) < 0.75 * bar:
         if digits(low) == digits(middle) == digits(high):
             return f"{digits(middle)}{suffix}"
         return f"{digits(middle)} [{digits(low)}, {digits(high)}]{suffix}"

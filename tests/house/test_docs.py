@@ -32,7 +32,8 @@ def named(path: Path) -> str:
 def test_a_page_does_what_it_says(path: Path, tmp_path: Path) -> None:
     """In a copy of the design files; the page that adds a kind and an effect, in a copy of the package."""
     run = in_process
-    shutil.copytree(ROOT / "specs", tmp_path / "specs")
+    for files in ("specs", "tests/questions"):
+        shutil.copytree(ROOT / files, tmp_path / files, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
     if path.name == CHANGES_THE_PACKAGE:
         shutil.copytree(ROOT / "ptmcalc", tmp_path / "ptmcalc", ignore=shutil.ignore_patterns("__pycache__"))
         run = in_a_fresh_one

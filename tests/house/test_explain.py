@@ -87,7 +87,8 @@ def test_every_letter_of_every_page_has_a_line_of_its_own(kind: AnyKind) -> None
     """By page: a letter that means one thing on a page may mean another one on the next."""
     listed = kind.symbols()
     letters = {(name, letter) for name, of_page in _letters(kind).items() for letter in of_page}
-    assert {f"{name} {letter}" for name, letter in letters - listed.keys()} == set()
+    missing = {f"{name} {letter}" for name, letter in letters - listed.keys()}
+    assert missing == set(), "add a line for each to symbols.txt of the kind"
 
 
 @of_every_type
@@ -152,7 +153,7 @@ def test_every_check_effect_solver_and_load_has_an_example(kind: AnyKind) -> Non
     if UPDATE and missing:
         keep(kind, found | from_blocks(kind, missing, pages_of(kind, missing)))
         found = stored(kind)
-    assert set(found) == set(names(kind))
+    assert set(found) == set(names(kind)), "run `python tests/update.py examples`"
 
 
 @of_every_kind

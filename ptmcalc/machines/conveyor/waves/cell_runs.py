@@ -1,6 +1,7 @@
 """Runs of the whole belt in cells on three grids, each until its scene is over."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from ptmcalc.base.estimate import Estimate, Interval
@@ -29,7 +30,7 @@ _MORE = 1.25
 _CONTOURS_AT_REST = 3.0
 """Contour times after the predicted standstill [1]: the run ends two after it, and the prediction is a mean over one. A
 larger value takes longer; a smaller one repeats more runs."""
-_MOST_SECONDS = 2.5
+_MOST_SECONDS = 0.5
 """Predicted seconds of the finest grid up to which a window is made longer; a numerical choice. A larger value follows
 longer stops and takes longer; a smaller one leaves more loads without an error bar."""
 _SECONDS = {"straight": (3e-6, 5e-9), "giving": (3e-6, 3.7e-8)}
@@ -162,10 +163,20 @@ def _estimate(name: str, value: float, sides: Interval) -> Estimate:
     return Estimate(value, max(value + sides.low, least), value + sides.high, numerical=bar)
 
 
+def spent_seconds(case: Moving, carried: frozenset[str], runs: Sequence[CellRun]) -> float:
+    """Seconds that the steps of these marches come to, those of windows that were too short included."""
+    per_step, per_cell = _rates(case, carried)
+    return sum(_PER_RUN + run.work * (per_cell + per_step / run.ready.course.cells) for run in runs)
+
+
+def _rates(case: Moving, carried: frozenset[str]) -> tuple[float, float]:
+    gives = "sag" in carried or ("belt_damping" in carried and case.spec.belt.damping is not None)
+    return _SECONDS["giving" if gives else "straight"]
+
+
 def predicted_seconds(window: float, case: Moving, carried: frozenset[str], cells: int) -> float:
     """Seconds predicted of a march on one grid."""
-    gives = "sag" in carried or ("belt_damping" in carried and case.spec.belt.damping is not None)
-    per_step, per_cell = _SECONDS["giving" if gives else "straight"]
+    per_step, per_cell = _rates(case, carried)
     rubber = rubber_of(case, cells) if "belt_damping" in carried else None
     steps = window / case.line.contour_time * cells * math.sqrt(1 + (rubber.stiffer if rubber else 0.0))
     return _PER_RUN + steps * (per_step + cells * per_cell)

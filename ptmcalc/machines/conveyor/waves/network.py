@@ -29,6 +29,7 @@ from ptmcalc.machines.conveyor.waves.cell_runs import (
     grids_of,
     predicted_seconds,
     slips_on,
+    spent_seconds,
 )
 from ptmcalc.machines.conveyor.waves.effects.moving_belt import belt_travel
 from ptmcalc.machines.conveyor.waves.unfinished_stop import failures_of, loads_so_far, open_end, unfinished
@@ -78,6 +79,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     return Result(
         loads,
         work=sum(part.work for part in runs),
+        spent=spent_seconds(case, carried, runs),
         window=(0.0, float(drawn.times[-1])),
         health={"energy_residual": drawn.energy_residual, "cells": ready.course.cells},
         findings=tuple(findings),
