@@ -94,7 +94,8 @@ class Spot:
 
 @dataclass
 class Motion:
-    """Histories at head and tail, speed behind the take-up, extremes and last tensions of every element."""
+    """Histories at head and tail, speed behind the take-up, extremes and last tensions of every element, and how far
+    every node went from where it was."""
 
     times: np.ndarray
     head: Spot
@@ -104,6 +105,7 @@ class Motion:
     lowest: np.ndarray
     last: np.ndarray
     tail_element: int
+    farthest: np.ndarray
 
 
 class _Place:
@@ -306,7 +308,7 @@ def simulate(plan: Plan, elements: int, window: float, tension: np.ndarray | flo
     u, v = np.zeros(count + 1), np.full(count + 1, float(speed))
     head = _Place(plan.head, speed, plan.head_speed, plan.belt_line_mass)
     low = _Place(plan.tail, speed, plan.tail_speed, plan.belt_line_mass)
-    highest, lowest, behind = start.copy(), start.copy(), np.zeros(steps)
+    highest, lowest, behind, farthest = start.copy(), start.copy(), np.zeros(steps), np.zeros(count + 1)
     lumps = np.diff(middle)
     s = start
     for n in range(steps):
@@ -333,4 +335,5 @@ def simulate(plan: Plan, elements: int, window: float, tension: np.ndarray | flo
         behind[n] = (v[0] + new[0]) / 2
         v = new
         u = u + dt * v
-    return Motion(np.arange(steps) * dt, head.spot, low.spot, behind, highest, lowest, s, tail)
+        np.maximum(farthest, u, out=farthest)
+    return Motion(np.arange(steps) * dt, head.spot, low.spot, behind, highest, lowest, s, tail, farthest)
