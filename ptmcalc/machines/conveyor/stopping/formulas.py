@@ -85,7 +85,8 @@ def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) 
 
         m v^2/2 = s (f N + H),   f = (m v^2/(2 s) - H)/N
 
-    N s f is the work of the idlers with the coefficient C of the file, H the slope resistance.
+    N s f is the work of the idlers with the coefficient C of the file, H the slope resistance. This f acts while the
+    belt coasts: written as `resistance.coefficient`, it needs `stop_factor: 1`.
 
     **Range** coasting from rated speed without brakes, gears engaged; secondary forces subtracted from H; not for the
     CEMA method.
