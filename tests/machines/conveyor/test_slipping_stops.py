@@ -72,7 +72,7 @@ def outside(seed: int) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("seed", [1049, 1234, 1526, 1563, 1898])
+@pytest.mark.parametrize("seed", [1568])
 def test_stops_whose_grids_agree_by_chance(seed: int) -> None:
     """Without the swing at rest in the bar, these were outside."""
     assert outside(seed) == []

@@ -32,10 +32,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ptmcalc.base.estimate import NOTHING, Estimate, Interval
+from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import capstan
-from ptmcalc.machines.conveyor.loads import GRIP, OF_STOP, SLIPS, TENSIONS, WAYS_OF_STOP
+from ptmcalc.machines.conveyor.loads import GRIP, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import grips
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.rigid_stop import deceleration
@@ -68,10 +68,14 @@ _MOVES = frozenset({*TENSIONS, "tension_run_off_min", "starting_force_needed"})
 
 @dataclass(frozen=True, slots=True)
 class Rest:
-    """How uncertain the first standstill of the belt at the head is: time [s] and distance [m]."""
+    """How uncertain the first standstill of the belt at the head is, to either side: time [s] and distance [m]."""
 
-    time: float
-    distance: float
+    time: Interval
+    distance: Interval
+
+
+CERTAIN = Rest(NOTHING, NOTHING)
+"""Of a scene that does not bring the belt to rest."""
 
 
 def bars(case: Moving, grids: Grids, front: float, rest: Rest) -> dict[str, Interval]:
@@ -101,10 +105,10 @@ def bars(case: Moving, grids: Grids, front: float, rest: Rest) -> dict[str, Inte
 def rest_of(drawn: Drawn) -> Rest:
     """Uncertainty of the first standstill of a belt whose speed at the head swings by s about a falling mean.
 
-        dt = s/a,   ds = s^2/(2 a)        a, deceleration of the mean
+        -(s - u)/a <= dt <= u/a,   -(s^2 - u^2)/(2 a) <= ds <= u^2/(2 a)
 
-    The head first stands still when the mean speed is between 0 and s. If a pulley slips, the mean falls slowly and a
-    small change makes it one swing earlier or later.
+    a: deceleration of the mean; u: mean speed when the head first stands still on this grid, between 0 and s as it is
+    in truth. If a pulley slips, the mean falls slowly and a small change makes it one swing earlier or later.
 
     **Range** any stop; infinite where the belt does not slow down, 0 where it does not come to rest.
     **Error** the mean is a straight line over the second half of the stop.
@@ -113,14 +117,19 @@ def rest_of(drawn: Drawn) -> Rest:
     belt, times = drawn.head.belt, drawn.times
     stands = belt <= 0
     if not stands.any():
-        return Rest(0.0, 0.0)
+        return CERTAIN
     last = int(stands.argmax()) + 1
     part = slice(last // 2, last)
     slope, level = np.polyfit(times[part], belt[part], 1) if last >= _FEWEST else (0.0, 0.0)
     if slope >= 0:
-        return Rest(math.inf, math.inf)
-    swing = float(np.ptp(belt[part] - slope * times[part] - level))
-    return Rest(swing / -slope, swing**2 / (-2 * slope))
+        return Rest(ANYTHING, ANYTHING)
+    about = belt[part] - slope * times[part] - level
+    swing, slows = float(np.ptp(about)), -float(slope)
+    mean = min(max(float(level + slope * times[last - 1]), 0.0), swing)
+    return Rest(
+        Interval(-(swing - mean) / slows, mean / slows),
+        Interval(-(swing**2 - mean**2) / (2 * slows), mean**2 / (2 * slows)),
+    )
 
 
 def front_at(drawn: Drawn) -> float:
@@ -220,12 +229,14 @@ def _of_slipping_stop(case: Moving, grids: Grids, rest: Rest) -> dict[str, Inter
     if not all(any(one.slid.values()) for one in grids):
         return {}
     ends = _STEPS_OF_SLIP * fine.traces["tension_run_on_max"].step
-    more = dict.fromkeys(WAYS_OF_STOP, ends * case.speed + rest.distance) | {"stop_time": ends + rest.time}
-    return {
-        name: _either(_still_to_come(grids, name) + more[name])
-        for name, (value, _) in fine.values.items()
-        if name in OF_STOP and math.isfinite(value)
-    }
+    found = {}
+    for name, (value, _) in fine.values.items():
+        if name in OF_STOP and math.isfinite(value):
+            timed = name == "stop_time"
+            bar = _still_to_come(grids, name) + ends * (1.0 if timed else case.speed)
+            sides = rest.time if timed else rest.distance
+            found[name] = Interval(sides.low - bar, sides.high + bar)
+    return found
 
 
 def _of_grip(

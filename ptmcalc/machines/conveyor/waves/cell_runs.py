@@ -98,7 +98,7 @@ def grid_loads(
             break
     coarsest, coarse, fine = runs
     front = cell_bars.front_at(fine.drawn) if _jumps(case.scene) else 0.0
-    rest = cell_bars.rest_of(fine.drawn) if case.brings_to_rest else cell_bars.Rest(0.0, 0.0)
+    rest = cell_bars.rest_of(fine.drawn) if case.brings_to_rest else cell_bars.CERTAIN
     bars = cell_bars.bars(case, (coarsest.loads, coarse.loads, fine.loads), front, rest)
     found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.values.items()}
     return found, runs
