@@ -34,6 +34,32 @@ _TABLE_ENDS = 2000.0
 larger value narrows the interval of long conveyors."""
 
 
+_BY_CONDITIONS = {"good": (0.017, 0.017, 0.019), "normal": (0.020, 0.018, 0.023), "poor": (0.027, 0.023, 0.030)}
+"""Coefficient f [1] by operating conditions with its lower and upper limit. The values are those of DIN 22101 (basic,
+normal, unfavourable), the limits an engineering choice between them: wider ones widen the error bars of files that give
+no f."""
+_ANY_CONDITIONS = (0.020, 0.017, 0.030)
+"""The same where the file does not describe the conditions: range of ISO 5048."""
+_LEAST_DOWNHILL = 0.012
+"""Minimum of f of a conveyor that lowers its load [1]; DIN 22101 calculates brakes of declines with 0.012 to 0.016. A
+larger value leaves light-running declines outside the error bar."""
+
+
+def _coefficient(spec: Conveyor) -> float | None:
+    return _by_conditions(spec)[0] if spec.resistance.cema is None else None
+
+
+def _coefficient_interval(spec: Conveyor) -> Interval:
+    _, low, high = _by_conditions(spec)
+    least = value(lambda climb: min(low, _LEAST_DOWNHILL) if climb < 0 else low, spec.route.climb)
+    return Interval(least, high)
+
+
+def _by_conditions(spec: Conveyor) -> tuple[float, float, float]:
+    given = spec.resistance.conditions
+    return _ANY_CONDITIONS if given is None else _BY_CONDITIONS[given]
+
+
 def _secondary(spec: Conveyor) -> float | None:
     if spec.resistance.secondary_force is not None or spec.resistance.cema is not None:
         return None
@@ -60,9 +86,9 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "coefficient"),
         units.RATIO,
-        lambda spec: 0.020 if spec.resistance.cema is None else None,
-        lambda spec: Interval(0.017, 0.030),
-        "ISO 5048 and DIN 22101: 0.020 in normal conditions, 0.017 to 0.030",
+        _coefficient,
+        _coefficient_interval,
+        "ISO 5048 and DIN 22101: 0.020 in normal conditions, 0.017 to 0.030; from 0.012 downhill; see `conditions`",
     ),
     Assumption(
         ("resistance", "secondary"),

@@ -104,6 +104,8 @@ class Resistance(Fragment):
 
     coefficient: Annotated[PositiveRatio | None, Assumed()] = None
     """fictitious friction coefficient f of the whole conveyor; 0.020 is assumed when it is left out"""
+    conditions: Literal["good", "normal", "poor"] | None = None
+    """operating conditions, from which f is assumed when `coefficient` is left out; good: light idlers, well aligned"""
     secondary: Annotated[FactorFromOne | None, Assumed()] = None
     """length factor C: all resistances / main resistances; default: table C(L), from 80 m"""
     secondary_force: Annotated[Force | None, OneOf("secondary")] = None
@@ -125,7 +127,8 @@ class Resistance(Fragment):
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """The secondary resistances are given in one way, and one method is used."""
         yield from at_most_one(given, "secondary", "secondary_force")
-        for key in ("coefficient", "secondary"):
+        yield from at_most_one(given, "coefficient", "conditions")
+        for key in ("coefficient", "conditions", "secondary"):
             if "cema" in given and key in given:
                 reason = "it is a key of ISO 5048 and DIN 22101; `cema` is another method, and the two are not combined"
                 yield Conflict((key,), reason, f"delete `{key}`, or `cema`")
