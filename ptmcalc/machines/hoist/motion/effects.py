@@ -349,6 +349,11 @@ ROPE_MASS: Effect[Hoist, Moving] = Effect(
 # -- rope that gets shorter -----------------------------------------------------------------------------------------
 
 
+_LIFTED = 1e-9
+"""Difference of rope force and weight relative to the weight [1] that counts as rounding. A numerical choice: a larger
+value takes a load that is barely not lifted as one that hangs still."""
+
+
 def _shortening(spec: Hoist, scene: Moving) -> float:
     """Part of the rope's length that runs onto the drum or off it while the scene is looked at."""
     if isinstance(scene, Release):
@@ -426,7 +431,7 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     growth = min(beside - math.log1p(-part) / 4, math.log1p(gain))
     rise = math.expm1(growth) * _dynamic_share(loads, one.weight)
     if rise == 0:
-        return {}
+        return _unlifted(loads, one.weight, gain)
     found = _around_forces(loads, one.weight, rise)
     if spec.structure is not None:
         found |= {
@@ -447,6 +452,14 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
             size = (rise + part) * one.weight / one.stiffness  # the static stretch goes with the length
             found[name] = Interval(-size, size)
     return found
+
+
+def _unlifted(loads: Loads, weight: float, gain: float) -> Offsets:
+    """Offsets of the forces of a load that the drive does not lift: the tension that a stalled drive builds up goes as
+    the square root of the rope stiffness at most; none of a load that hangs still."""
+    if "rope_force_max" not in loads or loads["rope_force_max"].value >= weight * (1 - _LIFTED):
+        return {}
+    return {name: _relative(one, gain) for name, one in loads.items() if name in FORCES}
 
 
 ROPE_SHORTENING: Effect[Hoist, Moving] = Effect(
