@@ -4,49 +4,27 @@ The numbers here are computed by hand, or bounded by a simpler model.
 """
 
 import math
-from functools import cache
+from functools import partial
 from pathlib import Path
 
 import pytest
 from scipy.optimize import brentq
+from support import edges
+from support.edges import judged, load
 
 from ptmcalc.base.diagnostic import Verdict
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.report import FileReport, Judgement
-from ptmcalc.engine.check import Options, check
-from ptmcalc.engine.load import load_text
+from ptmcalc.contract.report import Judgement
 
-HERE = Path(__file__).parent
 G = 9.80665
 RPM = math.pi / 30
 
 
-@cache
-def report_on(name: str, *changes: tuple[str, str]) -> FileReport:
-    text = (HERE / f"{name}.yaml").read_text(encoding="utf-8")
-    for old, new in changes:
-        assert old in text, old
-        text = text.replace(old, new)
-    return check(load_text(text.encode(), f"{name}.yaml"), Options(repairs=False))
-
-
-def judged(report: FileReport, code: str, scene: str = "", element: str = "") -> Judgement:
-    (found,) = [
-        one
-        for where, one in report.judgements
-        if one.code == code and scene in ("", where.name) and (one.element or "") == element
-    ]
-    return found
+report_on = partial(edges.report_on, folder=Path(__file__).parent)
 
 
 def value_of(one: Judgement) -> float:
     assert one.value is not None
     return one.value.value
-
-
-def load_in(report: FileReport, name: str) -> Estimate:
-    (found,) = [load.estimate for scene in report.scenes for load in scene.loads if load.info.name == name]
-    return found
 
 
 def test_the_backstop_of_an_inclined_conveyor_holds_the_stalled_motor() -> None:
@@ -79,7 +57,7 @@ def test_the_take_up_travel_is_the_sum_of_its_shares() -> None:
 def test_the_tail_of_a_long_conveyor_runs_on_until_the_wave_of_the_brake_arrives() -> None:
     """At full speed for the travel time of the wave along the loaded strand."""
     report = report_on("tail_runs_on")
-    head, most = load_in(report, "stop_distance").value, load_in(report, "stop_distance_max").value
+    head, most = load(report, "stop_distance").value, load(report, "stop_distance_max").value
     carried = 1500 / 3.6 / 3 + 20 + 20 / 1.2
     wave = math.sqrt(9000e3 * 1.2 / carried)
     assert most - head == pytest.approx(3 * 1500 / wave, rel=0.1)
@@ -99,9 +77,9 @@ def test_a_level_conveyor_runs_backward_by_its_stretch() -> None:
 
 def test_pulleys_of_1000_and_990_mm_share_the_load_by_the_slip_of_their_motors() -> None:
     """Kloss's formula for each motor, the belt slower behind the first pulley by its stretch."""
-    load = 2400 / 3.6 / 4
-    friction = 1.09 * 0.022 * G * 800 * (2 * 20 + load + 26 + 40 / 3)
-    force, rated = friction + load * G * 40, 400e3 / (1480 * RPM)
+    carried = 2400 / 3.6 / 4
+    friction = 1.09 * 0.022 * G * 800 * (2 * 20 + carried + 26 + 40 / 3)
+    force, rated = friction + carried * G * 40, 400e3 / (1480 * RPM)
     slip = 20 / 1500
     breakdown = slip * (2.4 + math.sqrt(2.4**2 - 1))
 
@@ -125,9 +103,9 @@ def test_a_decline_belt_slips_on_its_brake() -> None:
     one = judged(report_on("decline_belt_slips"), "CNV106")
     assert one.verdict is Verdict.FAIL
     assert "slips on the braked pulley `head` and does not stop" in one.reason
-    load, most = 1500 / 3.6 / 2.5, 60e3 * (1 - math.exp(-0.35 * math.radians(210)))
-    friction = 1.2 * 0.02 * G * 400 * (2 * 18 + load + 22 / 1.2 + 18 / 3)
-    assert load * G * 40 - friction > most
+    carried, most = 1500 / 3.6 / 2.5, 60e3 * (1 - math.exp(-0.35 * math.radians(210)))
+    friction = 1.2 * 0.02 * G * 400 * (2 * 18 + carried + 22 / 1.2 + 18 / 3)
+    assert carried * G * 40 - friction > most
 
 
 def test_a_chain_is_chosen_by_its_number() -> None:

@@ -13,18 +13,22 @@ EDGES = Path(__file__).parents[1] / "edges"
 
 
 @cache
-def report_on(name: str, *changes: tuple[str, str]) -> FileReport:
+def report_on(name: str, *changes: tuple[str, str], folder: Path = EDGES) -> FileReport:
     """The report of a machine, `conveyor/takeup-mass`, with some texts of its file replaced."""
-    text = (EDGES / f"{name}.yaml").read_text(encoding="utf-8")
+    text = (folder / f"{name}.yaml").read_text(encoding="utf-8")
     for old, new in changes:
         assert old in text, old
         text = text.replace(old, new)
     return check(load_text(text.encode(), f"{name}.yaml"), Options(repairs=False))
 
 
-def judged(found: FileReport, code: str, scene: str = "") -> Judgement:
-    """The verdict of a check in a scene; in the only one it is made in, where none is named."""
-    named = [one for where, one in found.judgements if one.code == code and scene in ("", where.name)]
+def judged(found: FileReport, code: str, scene: str = "", element: str | None = None) -> Judgement:
+    """The verdict of a check in a scene, and of an element; of the only one, where none is named."""
+    named = [
+        one
+        for where, one in found.judgements
+        if one.code == code and scene in ("", where.name) and element in (None, one.element)
+    ]
     assert len(named) == 1, [(one.code, one.element) for one in named]
     return named[0]
 
