@@ -103,14 +103,25 @@ def shared_forces(
     if forces is None and len({repr(one) for one in drives}) == 1:
         return [resistance / len(drives) for _ in drives]
     at = forces or _all(drives)
+    found = [float(force) for force in at(np.array(steady_speed(drives, resistance, speed, at)))]
+    scale = resistance / sum(found) if sum(found) else 0.0
+    return [scale * force for force in found]
+
+
+def steady_speed(
+    drives: Sequence[Motors], resistance: float, speed: float, forces: Callable[[FloatArray], Forces] | None = None
+) -> float:
+    """Speed of the unloaded belt at which the drives carry the resistance [m/s].
+
+    Arguments, range, error and source as of `shared_forces`; the speed of the largest force where they cannot carry it.
+    """
+    at = forces or _all(drives)
     marks = [mark for one in drives for mark in one.marks]
     high = 4 * max(*marks, speed)
     most = _speed_of_most(at, marks, 1, 0.0)
     start = most if resistance > 0 else _crossing(at, 0.0, most, high)
     end = high if resistance > 0 else _speed_of_most(at, marks, -1, 0.0)
-    found = [float(force) for force in at(np.array(_crossing(at, resistance, start, end)))]
-    scale = resistance / sum(found) if sum(found) else 0.0
-    return [scale * force for force in found]
+    return _crossing(at, resistance, start, end)
 
 
 def _all(drives: Sequence[Motors]) -> Callable[[FloatArray], Forces]:

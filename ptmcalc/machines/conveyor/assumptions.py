@@ -11,11 +11,22 @@ from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
-from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
-from ptmcalc.machines.conveyor.model import load_line_mass
+from ptmcalc.machines.conveyor.loads import BRAKING_POWER, TAKEUP_CLEARANCES, TAKEUP_TOTAL
+from ptmcalc.machines.conveyor.model import braking_force, load_line_mass
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.running.idlers import rolls, rolls_of_a_set
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Run, Start, Stop, Stopping
+from ptmcalc.machines.conveyor.spec import (
+    IN_MOTION,
+    Coast,
+    ControlledStop,
+    Conveyor,
+    Drive,
+    EmergencyStop,
+    Run,
+    Start,
+    Stop,
+    Stopping,
+)
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
@@ -107,6 +118,9 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
     ),
 )
 
+_LOST = 0.03
+"""Power that motors and converters without brake resistor lose, relative to that of the braking motors [1]. An
+engineering choice on the safe side: manufacturers state 5 to 20 %. A larger value passes faster stops."""
 _LIGHT_RUNNING = 0.6
 """Minimum of the stop factor by default [1]: f = 0.016 of a light-running belt relative to f = 0.027 of the design (DIN
 22101). A smaller value lengthens the upper limit of stopping time and distance."""
@@ -127,6 +141,15 @@ tension there. A smaller value widens the error bars."""
 
 def _stops(spec: Conveyor) -> bool:
     return any(isinstance(scene, Stopping) for scene in spec.all_scenes)
+
+
+def _lowers(spec: Conveyor) -> bool:
+    return any(isinstance(scene, ControlledStop) for scene in spec.all_scenes)
+
+
+def _braking_power(spec: Conveyor) -> float:
+    """Power with which the motors brake at their mean starting torque [W]."""
+    return braking_force(spec) * spec.speed
 
 
 def _elongation(spec: Conveyor) -> float:
@@ -197,7 +220,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         lambda spec: 1.0 if _stops(spec) else None,
         lambda spec: Interval(_LIGHT_RUNNING, 1.0),
         "DIN 22101: f from 0.016 in good to 0.027 in poor conditions; a lightly running belt stops later",
-        Use(scenes=frozenset({Stop, EmergencyStop, Coast})),
+        Use(scenes=frozenset({Stop, EmergencyStop, ControlledStop, Coast})),
     ),
     Assumption(
         ("resistance", "rest_factor"),
@@ -206,6 +229,14 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
         "practice for backstops: half of the running resistance of the idlers, none of loading points and cleaners",
         Use(loads=frozenset({"backstop_torque"})),
+    ),
+    Assumption(
+        ("checks", "braking_power"),
+        units.POWER,
+        lambda spec: _LOST * _braking_power(spec) if _lowers(spec) else None,
+        lambda spec: Interval(_LOST * _braking_power(spec), _braking_power(spec)),
+        "without brake resistor or feedback 3 % of the motors' power, lost in motor and converter; with them all of it",
+        Use(loads=frozenset({BRAKING_POWER})),
     ),
     Assumption(
         ("takeup", "mass"),

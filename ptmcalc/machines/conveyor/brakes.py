@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Brake, Conveyor, ConveyorScene, EmergencyStop, Stop
+from ptmcalc.machines.conveyor.spec import Brake, ControlledStop, Conveyor, ConveyorScene, EmergencyStop, Stop
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,9 @@ class Braking:
 
 
 def brakes_of(spec: Conveyor, scene: ConveyorScene) -> dict[str, Brake]:
-    """The brakes that act in a scene."""
+    """The brakes that act in a scene; in a controlled stop they close at standstill."""
+    if isinstance(scene, ControlledStop):
+        return {name: one.model_copy(update={"delay": scene.time + one.delay}) for name, one in spec.brakes.items()}
     acts = isinstance(scene, EmergencyStop) or (isinstance(scene, Stop) and scene.brakes == "on")
     return dict(spec.brakes) if acts else {}
 
@@ -52,7 +54,10 @@ def _drive_of(spec: Conveyor, brake: Brake) -> str | None:
 
 
 def braked_shafts(spec: Conveyor, scene: ConveyorScene) -> set[str | None]:
-    """Drives with a brake on the motor shaft that acts in a scene: the belt drives their gears."""
+    """Drives whose gears the belt drives: with a brake on the motor shaft that acts in a scene; all of them where the
+    motors brake the belt."""
+    if isinstance(scene, ControlledStop):
+        return set(spec.all_drives)
     return {_drive_of(spec, brake) for brake in brakes_of(spec, scene).values() if brake.shaft == "motor"}
 
 

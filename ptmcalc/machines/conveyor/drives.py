@@ -12,7 +12,7 @@ from ptmcalc.laws import start_profile
 from ptmcalc.machines.conveyor.load_sharing import steady_forces
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_line_filled, drive_force
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, PlacedDrive, Start
+from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, PlacedDrive, Start
 from ptmcalc.numerics.belt.curve import CurveStage, MotorForce
 from ptmcalc.numerics.belt.library import forces
 
@@ -158,19 +158,55 @@ def on_converter(scene: Start, drive: PlacedDrive, creep: float = 0.0) -> MotorF
     )
 
 
+def lowered_by_converter(
+    scene: ControlledStop, drive: PlacedDrive, creep: float, speed: float, steady: float
+) -> MotorForce:
+    """Rim force of a drive and its slope over the rim's speed, whose converter lowers the speed of the belt to 0.
+
+    F as in `along_curve` at the speed w + w_0 (1 - q (1 - p(t))),   w_0 (1 - q) = w_s - V (1 - creep) i/R
+
+    q w_0 is the synchronous speed at which the belt runs at its rated speed V; at rated frequency its motors turn with
+    w_s.
+
+    Args:
+        scene: the stop, with its profile p(t).
+        drive: the drive; its motor has a curve.
+        creep: part by which the pulley is slower than the belt that comes to the drives of its place [1].
+        speed: V [m/s].
+        steady: w_s [rad/s].
+
+    **Range** motors with a curve; up to rated frequency, without a torque limit of the converter.
+    **Error** none of its own; at low frequency the stator resistance reduces the real torque.
+    **Source** derived: induction motor at constant flux.
+    """
+    curve = drive.running_curve
+    assert curve is not None
+    motors, no_load = _motors(drive, curve.curve_stages[-1:], creep), filled(curve.no_load_speed)
+    return replace(
+        motors,
+        reference=no_load,
+        ramp=scene.time,
+        shape=scene.shape,
+        falls_from=1 - (steady - speed * motors.turns) / no_load,
+    )
+
+
 def _switched(scene: Start, drive: PlacedDrive, stages: Sequence[CurveStage], creep: float) -> MotorForce:
     """The motors of a drive with the times at which a start switches them."""
-    efficiency, turns = filled(drive.gear.efficiency), drive.gear.ratio / (drive.drum.diameter / 2)
     aborted = scene.aborted
-    return MotorForce(
-        stages,
-        (1 - creep) * turns,
-        drive.motor.count * turns * efficiency,
-        drive.motor.count * turns / efficiency,
+    return replace(
+        _motors(drive, stages, creep),
         delay=drive.delay,
         off=aborted.run if aborted else -math.inf,
         again=drive.delay + (aborted.run + aborted.pause if aborted else 0.0),
     )
+
+
+def _motors(drive: PlacedDrive, stages: Sequence[CurveStage], creep: float) -> MotorForce:
+    """The motors of a drive, switched on."""
+    efficiency, turns = filled(drive.gear.efficiency), drive.gear.ratio / (drive.drum.diameter / 2)
+    count = drive.motor.count
+    return MotorForce(stages, (1 - creep) * turns, count * turns * efficiency, count * turns / efficiency)
 
 
 def least_pull(spec: Conveyor, scene: Start) -> float:

@@ -1,16 +1,18 @@
 """How the drives of a belt share its resistance in steady running: on the slip lines of their motors, with the creep of
 the belt over the pulleys."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from ptmcalc.base.memory import kept_for
-from ptmcalc.components.steady_drive import FloatArray, Motors, shared_forces
+from ptmcalc.components.steady_drive import FloatArray, Motors, shared_forces, steady_speed
 from ptmcalc.machines.conveyor.model import BeltLine, drive_force
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive
+
+BySpeed = Callable[[FloatArray], Sequence[tuple[FloatArray, FloatArray]]]
 
 _SAME_SPEED = 1e-3
 """Relative difference of the pulley speeds of several drives up to which motors without a curve count as equal [1]. An
@@ -98,28 +100,57 @@ def steady_forces(spec: Conveyor, line: BeltLine) -> Mapping[str, float]:
 @kept_for(64)
 def _on_curves(spec: Conveyor, line: BeltLine) -> Mapping[str, float]:
     motors, at = motors_of(spec), {name: drive.at for name, drive in spec.all_drives.items()}
-    in_order = sorted(motors, key=lambda name: at[name] == "head")  # the belt comes to the tail first
     resistance = line.static_resistance + line.tail_pull
     found: dict[str, float] = {}
     for _ in range(_SETTLED):
-        tail_pull = sum(force for name, force in found.items() if at[name] == "tail")
-        loop = replace(line, tail_pull=tail_pull)
-        tail, head = loop.run_off + loop.back.rise + loop.tail_force, loop.run_off + resistance
+        loop = replace(line, tail_pull=sum(force for name, force in found.items() if at[name] == "tail"))
+        at_drives = _by_speed(spec, loop)
+        drives = [motors[name] for name in _in_order(spec)]
 
-        def forces(speeds: FloatArray, tail: float = tail, head: float = head) -> list[FloatArray]:
-            tensions, pulled = {"tail": np.full_like(speeds, tail), "head": np.full_like(speeds, head)}, []
-            for name in in_order:
-                force = motors[name].force(speeds * (1 + tensions[at[name]] / line.stiffness))
-                for place in ("tail", "head") if at[name] == "tail" else ("head",):
-                    tensions[place] = tensions[place] - force
-                pulled.append(force)
-            return pulled
+        def forces(speeds: FloatArray, known: BySpeed = at_drives) -> list[FloatArray]:
+            return [force for _, force in known(speeds)]
 
-        drives = [motors[name] for name in in_order]
-        found = dict(zip(in_order, shared_forces(drives, resistance, line.speed, forces), strict=True))
+        found = dict(zip(_in_order(spec), shared_forces(drives, resistance, line.speed, forces), strict=True))
         if not line.fixed_length:
             break
     return found
+
+
+def _in_order(spec: Conveyor) -> list[str]:
+    """The drives in the order in which the belt meets them, the tail first."""
+    return sorted(spec.all_drives, key=lambda name: spec.all_drives[name].at == "head")
+
+
+def _by_speed(spec: Conveyor, line: BeltLine) -> BySpeed:
+    """Speed of the belt that enters each drive [m/s] and force of the drive [N] over the speed of the unloaded belt."""
+    motors, resistance = motors_of(spec), line.static_resistance + line.tail_pull
+    tail, head = line.run_off + line.back.rise + line.tail_force, line.run_off + resistance
+
+    def found(speeds: FloatArray) -> list[tuple[FloatArray, FloatArray]]:
+        tensions, pulled = {"tail": np.full_like(speeds, tail), "head": np.full_like(speeds, head)}, []
+        for name in _in_order(spec):
+            at = spec.all_drives[name].at
+            entering = speeds * (1 + tensions[at] / line.stiffness)
+            force = motors[name].force(entering)
+            for place in ("tail", "head") if at == "tail" else ("head",):
+                tensions[place] = tensions[place] - force
+            pulled.append((entering, force))
+        return pulled
+
+    return found
+
+
+def steady_motor_speeds(spec: Conveyor, line: BeltLine) -> Mapping[str, float]:
+    """Speed of the motors of each drive in steady running at rated frequency [rad/s].
+
+    Equation, range, error and source as of `steady_forces`; every motor has a curve.
+    """
+    motors, resistance = motors_of(spec), line.static_resistance + line.tail_pull
+    at_drives = _by_speed(spec, line)
+    drives = [motors[name] for name in _in_order(spec)]
+    speed = steady_speed(drives, resistance, line.speed, lambda speeds: [force for _, force in at_drives(speeds)])
+    entering = [float(one) for one, _ in at_drives(np.array(speed))]
+    return {name: one * motors[name].turns for name, one in zip(_in_order(spec), entering, strict=True)}
 
 
 def creep_of(spec: Conveyor, line: BeltLine) -> Mapping[str, float]:

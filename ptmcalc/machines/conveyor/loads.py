@@ -25,6 +25,10 @@ GRIP = ("slip_utilisation_max", "slip_reserve_min")
 DRIVE = ("starting_force_needed", "starting_reserve")
 """What a start asks of the drive."""
 
+BRAKING_FORCE, BRAKING_RESERVE, BRAKING_POWER = "braking_force_needed", "braking_force_reserve", "braking_power_max"
+"""What a controlled stop requires of the drives."""
+DRIVE_OF_STOP = frozenset({BRAKING_FORCE, BRAKING_RESERVE, BRAKING_POWER})
+
 AT_DRUM = frozenset({"tension_run_on_max", "tension_dynamic_run_on_max", "tension_run_off_min", *GRIP})
 """Loads known from the two tensions at the drive drum."""
 

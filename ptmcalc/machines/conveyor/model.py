@@ -345,6 +345,11 @@ def starting_force(spec: Conveyor) -> float:
     return sum(drive_force(drive) for drive in spec.all_drives.values())
 
 
+def braking_force(spec: Conveyor) -> float:
+    """Force of all drives at the rim, with the mean starting torque of their motors and losses that help [N]."""
+    return sum(drive_force(one) / filled(one.gear.efficiency) ** 2 for one in spec.all_drives.values())
+
+
 def loop_masses(line: BeltLine, imposed: bool) -> LoopMasses:
     """The loop as masses on a line, its drum driven by a force or at an imposed speed."""
     return LoopMasses(

@@ -10,6 +10,7 @@ from ptmcalc.laws import capstan, start_profile
 from ptmcalc.machines.conveyor.drives import (
     along_curve,
     at_rest,
+    lowered_by_converter,
     moving_mass,
     on_converter,
     pull,
@@ -17,10 +18,16 @@ from ptmcalc.machines.conveyor.drives import (
     rigid_start,
     running,
 )
-from ptmcalc.machines.conveyor.load_sharing import creep_of, motors_of, starting_shares, steady_forces
+from ptmcalc.machines.conveyor.load_sharing import (
+    creep_of,
+    motors_of,
+    starting_shares,
+    steady_forces,
+    steady_motor_speeds,
+)
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force
 from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
-from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Start, Stop, Stopping
+from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, Jam, Start, Stopping
 from ptmcalc.numerics.belt.curve import MotorForce
 
 _CONTOURS = 2.0
@@ -93,10 +100,34 @@ def _usual(spec: Conveyor, scene: ConveyorScene) -> Moving:
         return Moving(
             spec, scene, line, pulls, None, spec.speed, scene.duration or _AFTER_JAM * line.contour_time, 0, 0
         )
-    assert isinstance(scene, Stop | EmergencyStop | Coast)
+    if isinstance(scene, ControlledStop):
+        return _controlled_stop(spec, scene, line)
+    assert isinstance(scene, Stopping)
     time, way = rigid_stop(spec, scene, line)
     window = (_LATE * time if math.isfinite(time) else 2 * line.contour_time) + _CONTOURS * line.contour_time
     return Moving(spec, scene, line, {name: _constant(0.0) for name in names}, None, spec.speed, window, time, way)
+
+
+def _controlled_stop(spec: Conveyor, scene: ControlledStop, line: BeltLine) -> Moving:
+    """The converters hold the speed of the pulleys; with drives at both ends, the frequencies of the motors."""
+    time, way = rigid_stop(spec, scene, line)
+    window, pulls = time + _CONTOURS * line.contour_time, {name: _constant(0.0) for name in spec.all_drives}
+    if _at_both_ends(spec) and motors_of(spec):
+        creep, steady = creep_of(spec, line), steady_motor_speeds(spec, line)
+        curves = {
+            name: lowered_by_converter(scene, drive, creep[name], line.speed, steady[name])
+            for name, drive in spec.all_drives.items()
+        }
+        return Moving(spec, scene, line, pulls, None, line.speed, window, time, way, curves)
+
+    def imposed(now: float) -> float:
+        return line.speed * (1 - float(start_profile.rise(scene.shape, scene.time, now)))
+
+    return Moving(spec, scene, line, pulls, imposed, line.speed, window, time, way)
+
+
+def _at_both_ends(spec: Conveyor) -> bool:
+    return len({drive.at for drive in spec.all_drives.values()}) > 1
 
 
 def rounds(spec: Conveyor, scene: ConveyorScene) -> float:
@@ -111,8 +142,8 @@ def on_slip_lines(spec: Conveyor, scene: Start) -> bool:
     Equal speeds of pulleys at both ends would share the load by the creep of the belt alone, ever more unequally: the
     slip of the motors decides there. Motors that are switched off hold no speed.
     """
-    places = {drive.at for drive in spec.all_drives.values()}
-    return scene.profile.imposes_speed and (len(places) > 1 or scene.aborted is not None) and bool(motors_of(spec))
+    lines = _at_both_ends(spec) or scene.aborted is not None
+    return scene.profile.imposes_speed and lines and bool(motors_of(spec))
 
 
 def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:

@@ -2,18 +2,21 @@
 
 import math
 
+from ptmcalc.laws import start_profile
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.drives import moving_mass
 from ptmcalc.machines.conveyor.model import BeltLine
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
+from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene
 
 
 def rigid_stop(spec: Conveyor, scene: ConveyorScene, line: BeltLine, until: float = 0.0) -> tuple[float, float]:
     """Time and way of the rigid body from full speed to rest, or to another speed; infinite where nothing stops it.
 
     M v' = -(W + sum B(t)), brakes with delay and straight rise: pieces of constant or linear force, solved piece by
-    piece.
+    piece. In a controlled stop the speed is that of the converters, v = V (1 - p(t)).
     """
+    if isinstance(scene, ControlledStop):
+        return _controlled(scene, line, until / line.speed)
     mass, resistance = moving_mass(line), line.static_resistance + line.tail_pull
     brakes = [braking(spec, brake) for brake in brakes_of(spec, scene).values()]
     marks = sorted({0.0, *(b.delay for b in brakes), *(b.delay + b.rise for b in brakes)})
@@ -34,6 +37,12 @@ def rigid_stop(spec: Conveyor, scene: ConveyorScene, line: BeltLine, until: floa
     return math.inf, math.inf
 
 
+def _controlled(scene: ControlledStop, line: BeltLine, share: float) -> tuple[float, float]:
+    """Time and way until the converters have a share of the rated speed."""
+    time = float(start_profile.time_of_share(scene.shape, scene.time, 1 - share))
+    return time, line.speed * (time - float(start_profile.rise_integral(scene.shape, scene.time, time)))
+
+
 def _first_rest(momentum: float, force: float, rate: float) -> float:
     """Smallest t > 0 with force t + rate t^2/2 = momentum."""
     if abs(rate) * momentum <= 1e-14 * force**2:
@@ -46,6 +55,8 @@ def _first_rest(momentum: float, force: float, rate: float) -> float:
 
 
 def deceleration(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> float:
-    """Largest deceleration of the rigid body with all brakes of the scene [m/s^2]."""
+    """Largest deceleration of the rigid body with all brakes of the scene, or by its converters [m/s^2]."""
+    if isinstance(scene, ControlledStop):
+        return line.speed * start_profile.peak_rate(scene.shape, scene.time)
     brakes = sum(braking(spec, brake).force for brake in brakes_of(spec, scene).values())
     return abs(line.static_resistance + line.tail_pull + brakes) / moving_mass(line)

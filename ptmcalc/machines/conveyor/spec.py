@@ -32,6 +32,7 @@ from ptmcalc.spec.fields import (
     PositiveSpeed,
     PositiveTime,
     PositiveTorque,
+    Power,
     RunningTime,
     Time,
 )
@@ -187,7 +188,7 @@ class ConveyorChecks(CheckSettings):
     slack_sag: Annotated[PositiveRatio, Limit()] = DEEPEST
     """sag ratio at which the belt counts as slack, in every scene"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """maximum stopping distance of the belt in a `stop`"""
+    """maximum stopping distance of the belt in a `stop` or `controlled_stop`"""
     emergency_stop_distance: Annotated[PositiveSpan | None, Limit()] = None
     """maximum stopping distance of the belt in an `emergency_stop`; default: `stop_distance`"""
     stop_time: Annotated[PositiveTime | None, Limit()] = None
@@ -205,6 +206,9 @@ class ConveyorChecks(CheckSettings):
     """maximum residual oscillation of the first belt mode after the start profile, relative to a step"""
     resonance_band: Annotated[Fraction, Limit()] = 0.15
     """required separation of the `ripple` of a drive from the natural frequencies of the belt"""
+    braking_power: Annotated[Power | None, Assumed()] = None
+    """power that the converters of all drives together take back in a `controlled_stop`: brake resistors or feedback
+    to the mains; 3 % of the power of the motors is assumed when left out"""
     run_back: Annotated[Length, Limit()] = 0.1
     """permissible run-back distance of the belt in an aborted start; an engineering choice"""
     slip_heat: Annotated[PositiveEnergy | None, Limit()] = None
@@ -266,6 +270,16 @@ class EmergencyStop(Stopping):
     type: Literal["emergency_stop"] = "emergency_stop"
 
 
+class ControlledStop(Stopping):
+    """Converters lower the speed of all drives to standstill, where the brakes close."""
+
+    type: Literal["controlled_stop"] = "controlled_stop"
+    time: PositiveTime
+    """from full speed to standstill"""
+    shape: Literal["ramp", "cosine", "parabolic"] = "ramp"
+    """how the speed falls: `ramp` linear, `cosine` as (1 + cos)/2, `parabolic` as two parabolas"""
+
+
 class Coast(Stopping):
     """The drives are switched off and no brake acts; the resistance is computed from a measured distance."""
 
@@ -294,14 +308,14 @@ class Hold(ConveyorScene):
     type: Literal["backstop"] = "backstop"
 
 
-IN_MOTION: frozenset[type[Scene]] = frozenset({Start, Stop, EmergencyStop, Coast, Jam})
+IN_MOTION: frozenset[type[Scene]] = frozenset({Start, Stop, EmergencyStop, ControlledStop, Coast, Jam})
 """Scenes in which the belt does not run evenly."""
 
 ANY_MOTION = IN_MOTION | {Run}
 """Scenes in which the belt moves."""
 
 AnyScene = Annotated[
-    Run | Start | Stop | EmergencyStop | Coast | Jam | Hold,
+    Run | Start | Stop | EmergencyStop | ControlledStop | Coast | Jam | Hold,
     Field(discriminator="type"),
 ]
 

@@ -74,7 +74,8 @@ class MotorForce:
 
     `drives` = n i eta/R and `brakes` = n i/(eta R) [1/m], `turns` [rad/m]. The motors are on from `delay` to `off`, and
     again from `again` [s]. A frequency converter moves the curve along the speed by what its reference is short of
-    `reference`, to which it rises along `shape` in the time `ramp`. A fluid coupling that fills with the time constant
+    `reference`, to which it rises along `shape` in the time `ramp`; of a stop it falls from the share `falls_from` of
+    `reference` to 0. A fluid coupling that fills with the time constant
     `fill` passes on 1 - exp(-t/fill) of the torque. A soft starter raises the voltage from `soft_from` of the rated one
     in the time `soft_time`, and the torque with its square.
     """
@@ -89,6 +90,7 @@ class MotorForce:
     reference: float = 0.0
     ramp: float = 0.0
     shape: Shape = "ramp"
+    falls_from: float = 0.0
     fill: float = 0.0
     soft_from: float = 1.0
     soft_time: float = 0.0
@@ -105,7 +107,8 @@ class MotorForce:
                 break
             late += 1
         if self.ramp > 0:
-            turning += self.reference * (1 - self._reference_at(since / self.ramp))
+            share = self._reference_at(since / self.ramp)
+            turning += self.reference * (1 - (self.falls_from * (1 - share) if self.falls_from > 0 else share))
         torque, rise = self.stages[late].at(turning)
         factor = (self.drives if torque > 0 else self.brakes) * self._rises(since)
         return factor * torque, factor * rise * self.turns

@@ -57,7 +57,7 @@ class Curve(ctypes.Structure):
     _fields_ = _members(
         array="stages points",
         whole="count point_count shape",
-        real="turns drives brakes delay off again reference ramp fill soft_from soft_time",
+        real="turns drives brakes delay off again reference ramp falls_from fill soft_from soft_time",
     )
 
 

@@ -50,12 +50,13 @@ typedef struct {
 } Stage;
 
 /* Motors on their curve: curve.py. The reference of a converter rises along `shape` (0 straight, 1 cosine, 2 parabolas)
-   or along straight lines between pairs of `points` (time, share), both relative. */
+   or along straight lines between pairs of `points` (time, share), both relative; in a stop it falls from
+   `falls_from`. */
 typedef struct {
     const Stage *stages;
     const double *points;
     int64_t count, point_count, shape;
-    double turns, drives, brakes, delay, off, again, reference, ramp, fill, soft_from, soft_time;
+    double turns, drives, brakes, delay, off, again, reference, ramp, falls_from, fill, soft_from, soft_time;
 } Curve;
 
 /* A force [N] at the rim by time and speed, or another value by time: nothing, samples on a grid of time with ramps of
@@ -275,8 +276,10 @@ static double on_curve(const Curve *curve, double time, double speed, double *sl
         return 0.0;
     for (int64_t i = 1; i < curve->count && !(turning < stage->until_speed && since < stage->until_time); i++)
         stage++;
-    if (curve->ramp > 0)
-        turning += curve->reference * (1 - reference_at(curve, since / curve->ramp));
+    if (curve->ramp > 0) {
+        double share = reference_at(curve, since / curve->ramp);
+        turning += curve->reference * (1 - (curve->falls_from > 0 ? curve->falls_from * (1 - share) : share));
+    }
     double torque = torque_of(stage, turning, slope), factor = torque > 0 ? curve->drives : curve->brakes;
     if (curve->fill > 0)
         factor *= -expm1(-since / curve->fill);

@@ -157,11 +157,12 @@ class Station:
     ) -> None:
         self.place, self.drums, self.takeup = place, tuple(drums), takeup
         count, self._laws = len(self.drums), Laws()
+        self.shares = tuple(shares) or (1 / max(count, 1),) * count
         self.raised = self._laws.raised
         """errors of laws that are functions"""
         self._tensions = np.zeros(max(count + 1, 2))
         self._turning = (compiled.Drum * max(count, 1))()
-        for made, drum, share in zip(self._turning, self.drums, shares or [1 / max(count, 1)] * count, strict=False):
+        for made, drum, share in zip(self._turning, self.drums, self.shares, strict=False):
             made.mass, made.hold, made.share, made.one_way = drum.mass, drum.hold, share, int(drum.one_way)
             made.grip = math.exp(drum.exponent) if drum.exponent is not None else math.inf
             made.force = self._laws.of_speed(None if drum.force is no_force else drum.force)

@@ -10,11 +10,13 @@ from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.drives import moving_mass, running
 from ptmcalc.machines.conveyor.spec import (
     Coast,
+    ControlledStop,
     Conveyor,
     ConveyorScene,
     EmergencyStop,
     Stop,
 )
+from ptmcalc.machines.conveyor.stopping.controlled import time_key
 
 Loads = Mapping[str, Estimate]
 Checks = Iterable[AnyCheck]
@@ -46,11 +48,16 @@ def _brake_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
 
 
 def _brake_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
+    if isinstance(scene, ControlledStop):
+        return time_key(spec, scene)
     return _brake_key(spec, scene) if brakes_of(spec, scene) else ()
 
 
 def _time_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
-    """What must hold the belt: its strongest brake; without one the limit that no brake was asked to keep."""
+    """What must hold the belt: its strongest brake; without one the limit that no brake was asked to keep; in a
+    controlled stop its duration."""
+    if isinstance(scene, ControlledStop):
+        return time_key(spec, scene)
     if brakes_of(spec, scene) or spec.checks.stop_time is None:
         return _brake_key(spec, scene)
     return ("checks", "stop_time")
@@ -58,7 +65,9 @@ def _time_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
 
 def _stop_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
     """The latest brake's delay or rise, where full torque from the first moment would stop the rigid body in time; else
-    the strongest brake's torque."""
+    the strongest brake's torque; in a controlled stop its duration."""
+    if isinstance(scene, ControlledStop):
+        return time_key(spec, scene)
     acting, limit = brakes_of(spec, scene), spec.stop_distance_limit(scene)
     line = running(spec, scene)
     force = line.static_resistance + line.tail_pull + sum(braking(spec, brake).force for brake in acting.values())
@@ -71,7 +80,8 @@ def _stop_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
 
 
 def _stop_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
-    return _stop_key(spec, scene) if brakes_of(spec, scene) else ()
+    held = brakes_of(spec, scene) or isinstance(scene, ControlledStop)
+    return _stop_key(spec, scene) if held else ()
 
 
 STOP: Check[Conveyor, ConveyorScene] = only(_limited)(
@@ -80,7 +90,7 @@ STOP: Check[Conveyor, ConveyorScene] = only(_limited)(
         title="belt stopping distance",
         question="Does the belt at the head stop within the permissible distance?",
         failure="belt stopping distance is too long",
-        scenes=frozenset({Stop, EmergencyStop}),
+        scenes=frozenset({Stop, EmergencyStop, ControlledStop}),
         loads=("stop_distance_max",),
         sense=Sense.AT_MOST,
         limit=_stop_limit,
@@ -119,7 +129,7 @@ STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
     question="Does the belt at the head come to rest within the limit, or at all?",
     failure="belt takes too long to stop",
     limit_state=LimitState("belt does not stop"),
-    scenes=frozenset({Stop, EmergencyStop, Coast}),
+    scenes=frozenset({Stop, EmergencyStop, ControlledStop, Coast}),
     loads=("stop_time",),
     sense=Sense.AT_MOST,
     limit=_time_limit,

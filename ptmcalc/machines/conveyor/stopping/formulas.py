@@ -21,6 +21,7 @@ from ptmcalc.machines.conveyor.motion import moving
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import (
     Coast,
+    ControlledStop,
     Conveyor,
     ConveyorScene,
     EmergencyStop,
@@ -114,7 +115,7 @@ def _friction_per_coefficient(spec: Conveyor, scene: Coast, line: BeltLine) -> t
 def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
     """Stopping time and stopping distance of the rigid conveyor, brakes with delay and rise.
 
-        M v' = -(W + B(t))
+        M v' = -(W + B(t))            v = V (1 - p(t))   of a controlled stop
 
     **Range** any stop; infinite if nothing stops the motion.
     **Error** none of its own; the belt at the head of a long conveyor stops earlier or later than its mean.
@@ -180,7 +181,7 @@ RIGID_STOP = _formula(
     "rigid_stop",
     "textbook stop, rigid conveyor",
     rigid_stop,
-    {Stop, EmergencyStop, Coast},
+    {Stop, EmergencyStop, ControlledStop, Coast},
     OF_STOP,
     "Newton's law",
     decides=False,

@@ -50,7 +50,7 @@ from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, loop_masses
 from ptmcalc.machines.conveyor.rigid_stop import rigid_stop
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Stopping
+from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, Stopping
 
 FloatArray = NDArray[np.float64]
 
@@ -207,7 +207,8 @@ class ShortStop:
 def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     """A stop for which the bounds hold; None out of their range."""
     acting = brakes_of(spec, scene).values()
-    plain = isinstance(scene, Stopping) and len(spec.all_drives) == 1 and all(one.at == "head" for one in acting)
+    held = isinstance(scene, Stopping) and not isinstance(scene, ControlledStop)
+    plain = held and len(spec.all_drives) == 1 and all(one.at == "head" for one in acting)
     if not plain or spec.resistance.speed_share > 0:
         return None
     line = running(spec, scene)

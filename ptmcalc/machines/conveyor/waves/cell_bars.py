@@ -35,7 +35,7 @@ import numpy as np
 from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import capstan
-from ptmcalc.machines.conveyor.loads import GRIP, OF_STOP, SLIPS, TENSIONS
+from ptmcalc.machines.conveyor.loads import BRAKING_FORCE, BRAKING_RESERVE, GRIP, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import grips
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.rigid_stop import deceleration
@@ -62,7 +62,7 @@ short stops without an error bar."""
 _ROUNDING = 1e-11
 """Rounding of sums and differences of tensions, relative to the largest [1]. A numerical choice above the resolution
 2e-16 of the floating point times the number of additions. A larger value widens bars that are otherwise 0."""
-_MOVES = frozenset({*TENSIONS, "tension_run_off_min", "starting_force_needed"})
+_MOVES = frozenset({*TENSIONS, "tension_run_off_min", "starting_force_needed", BRAKING_FORCE})
 """Families of forces whose traces tell what is still to come of them."""
 
 
@@ -186,7 +186,8 @@ def _gap(grids: Grids, name: str) -> float:
 def _moved(case: Moving, fine: Values, change: float) -> dict[str, Interval]:
     """What the largest error of any tension [N] makes of the loads that are no tensions."""
     loads = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
-    slowing = deceleration(case.spec, case.scene, case.line)
+    held = case.imposed is not None and case.brings_to_rest  # the head comes to rest on time
+    slowing = math.inf if held else deceleration(case.spec, case.scene, case.line)
     heavy = case.spec.takeup_weight > 0
     return load_errors.moved(
         case.line, loads, load_errors.Change.any_time(change), slowing, grips(case.spec), off=heavy
@@ -207,6 +208,9 @@ def _of_laws(case: Moving, grids: Grids, found: Mapping[str, Interval], front: f
         made["starting_reserve"] = load_errors.moved_drive(loads, found["starting_force_needed"].high)[
             "starting_reserve"
         ]
+    if BRAKING_RESERVE in fine:
+        braked = load_errors.moved_braking(line, loads, found[BRAKING_FORCE].high)
+        made[BRAKING_RESERVE] = braked[BRAKING_RESERVE]
     return made
 
 

@@ -10,10 +10,18 @@ from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.keys.route import Curve
-from ptmcalc.machines.conveyor.loads import RUN_BACK_DISTANCE, RUN_BACK_SPEED, may_run_back
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, starting_force
+from ptmcalc.machines.conveyor.loads import (
+    BRAKING_FORCE,
+    BRAKING_POWER,
+    BRAKING_RESERVE,
+    RUN_BACK_DISTANCE,
+    RUN_BACK_SPEED,
+    may_run_back,
+)
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, braking_force, starting_force
 from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.spec import Start
+from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.spec import ControlledStop, Start
 from ptmcalc.machines.conveyor.takeup.travel import moved
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.machines.conveyor.waves.takeup_stops import sinking
@@ -101,6 +109,8 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
         _run_back(found, case, drawn, step)
     if isinstance(case.scene, Start) and case.scene.profile.imposes_speed:
         _asked(found, case, drawn, ready)
+    if isinstance(case.scene, ControlledStop):
+        _held_back(found, case, drawn, ready)
     return found
 
 
@@ -166,24 +176,49 @@ def _run_back(found: OneGrid, case: Moving, drawn: Drawn, step: float) -> None:
 
 
 def _asked(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
-    """Force that a start on converters asks of the drives together, over the available one: sum (m v' + S_on - S_off)
-    of an imposed speed, sum F(v, t) of motors on their slip lines."""
-    step = ready.course.step
-    force = np.zeros(len(drawn.times))
-    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
-        for drum, speeds in zip(station.drums, history.drums.T, strict=True):
-            curve = case.curves.get(drum.name)
-            if curve is not None:
-                force += forces(curve, drawn.times, speeds)
-        if station.imposes:
-            mass = sum(drum.mass for drum in station.drums)
-            force += history.tensions[:, 0] - history.tensions[:, -1] + mass * np.gradient(history.belt, step)
-    found.traces["starting_force_needed"] = trace = Trace(force, step)
+    """Force that a start on converters asks of the drives together, over the available one."""
+    force = sum((one for one, _ in _of_converters(case, drawn, ready).values()), np.zeros(len(drawn.times)))
+    found.traces["starting_force_needed"] = trace = Trace(force, ready.course.step)
     needed, at = trace.extreme()
     available = starting_force(case.spec)
     reserve = available / needed if needed > 0 else math.inf
     values = found.values
     values |= {"starting_force_needed": (needed, {"time": at}), "starting_reserve": (reserve, {})}
+
+
+def _held_back(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
+    """Force with which the drives of a controlled stop hold the belt back together, over the available one, and the
+    power that the motors which brake take back through their gears."""
+    at_drives, step = _of_converters(case, drawn, ready), ready.course.step
+    force, power = np.zeros(len(drawn.times)), np.zeros(len(drawn.times))
+    for name, (pull, speed) in at_drives.items():
+        force -= pull
+        power += np.maximum(-pull * speed, 0.0) * filled(case.spec.all_drives[name].gear.efficiency)
+    traces, values = found.traces, found.values
+    traces[BRAKING_FORCE], traces[BRAKING_POWER] = Trace(force, step), Trace(power, step)
+    for name in (BRAKING_FORCE, BRAKING_POWER):
+        value, at = traces[name].extreme()
+        values[name] = value, {"time": at}
+    needed = values[BRAKING_FORCE][0]
+    values[BRAKING_RESERVE] = braking_force(case.spec) / needed if needed > 0 else math.inf, {}
+
+
+def _of_converters(case: Moving, drawn: Drawn, ready: Set) -> dict[str, tuple[FloatArray, FloatArray]]:
+    """Force [N] and speed [m/s] of each drive on a converter over time: its share of m v' + S_on - S_off of an imposed
+    speed, F(v, t) of motors on their slip lines."""
+    found = {}
+    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
+        whole = history.tensions[:, 0] - history.tensions[:, -1]
+        if station.imposes:
+            masses = [drum.mass for drum in station.drums]
+            whole += np.gradient(history.drums, ready.course.step, axis=0) @ masses
+        for index, drum in enumerate(station.drums):
+            curve, speeds = case.curves.get(drum.name), history.drums[:, index]
+            if curve is not None:
+                found[drum.name] = forces(curve, drawn.times, speeds), speeds
+            elif station.imposes and drum.name in case.spec.all_drives:
+                found[drum.name] = station.shares[index] * whole, speeds
+    return found
 
 
 def _rest(case: Moving, belt: FloatArray, times: FloatArray) -> Values:

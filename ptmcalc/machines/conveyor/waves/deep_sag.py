@@ -14,7 +14,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, family
 from ptmcalc.laws import sag
 from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS, TAKEUP_CLEARANCES
+from ptmcalc.machines.conveyor.loads import BRAKING_RESERVE, OF_STOP, SLIPS, TAKEUP_CLEARANCES
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Start
 from ptmcalc.numerics.belt.march import Drawn, Extreme
@@ -30,6 +30,7 @@ _FALLING = frozenset(
         "slip_reserve_min",
         "belt_safety_min",
         "starting_reserve",
+        BRAKING_RESERVE,
         *TAKEUP_CLEARANCES,
     }
 )

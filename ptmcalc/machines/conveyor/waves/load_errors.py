@@ -11,8 +11,12 @@ from ptmcalc.contract.result import family
 from ptmcalc.laws import sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.loads import (
+    BRAKING_FORCE,
+    BRAKING_POWER,
+    BRAKING_RESERVE,
     CHANGED_BY_MOTION,
     DRIVE,
+    DRIVE_OF_STOP,
     GRIP,
     LOWEST,
     OF_STOP,
@@ -153,6 +157,8 @@ def moved(
             found[name] = moved_sag(line, loads, change.smallest)
         elif kind in DRIVE and asked:
             found[name] = moved_drive(loads, 2 * asked * most)[kind]
+        elif kind in DRIVE_OF_STOP and asked:
+            found[name] = moved_braking(line, loads, 2 * asked * most)[kind]
         elif kind in WAYS_OF_STOP or kind in TAKEUP_WAYS or kind == RUN_BACK_DISTANCE:
             found[name] = Interval(-stretch, stretch)
         elif kind == RUN_BACK_SPEED:
@@ -179,6 +185,19 @@ def moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Inter
     available = reserve * needed
     ends = [available / (needed + change), available / (needed - change) if needed > change else np.inf]
     return {"starting_force_needed": Interval(-change, change), "starting_reserve": around(reserve, ends)}
+
+
+def moved_braking(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
+    """The force with which the drives of a controlled stop hold the belt, the reserve of the available one over it, and
+    the power that comes back: at most that of the force at the speed of the belt."""
+    needed, reserve = loads[BRAKING_FORCE].value, loads[BRAKING_RESERVE].value
+    either = Interval(-change, change)
+    found = {BRAKING_FORCE: either, BRAKING_POWER: Interval(-change * line.speed, change * line.speed)}
+    if not np.isfinite(reserve):
+        return found | {BRAKING_RESERVE: NOTHING if needed + change <= 0 else ANYTHING}
+    available = reserve * needed
+    ends = [available / (needed + change), available / (needed - change) if needed > change else np.inf]
+    return found | {BRAKING_RESERVE: around(reserve, ends)}
 
 
 def moved_safety(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:

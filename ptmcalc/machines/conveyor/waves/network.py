@@ -13,7 +13,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Failure, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
+from ptmcalc.machines.conveyor.loads import DRIVE, DRIVE_OF_STOP, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import belt_line
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.plain_start import delay_lines_do
@@ -231,7 +231,7 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
             "moving_belt",
         }
     ),
-    gives=OF_NETWORK.union(PER_DRIVE, DRIVE),
+    gives=OF_NETWORK.union(PER_DRIVE, DRIVE, DRIVE_OF_STOP),
     run=run,
     cost=cost,
     source="method of characteristics with lumped idlers; derived in ptmcalc.numerics.belt",

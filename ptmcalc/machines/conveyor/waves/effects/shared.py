@@ -5,11 +5,12 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, DRIVE_OF_STOP, OF_STOP
 from ptmcalc.machines.conveyor.model import BeltLine, grips
 from ptmcalc.machines.conveyor.plain_start import slides_at_rest
 from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
+    ControlledStop,
     Conveyor,
     ConveyorScene,
     Start,
@@ -26,12 +27,12 @@ Offsets = Mapping[str, Interval]
 def anything(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """No bound for any load that the motion of the belt can change; a belt that never stops does so whatever its waves
     are."""
-    drives = isinstance(scene, Start) and scene.profile.imposes_speed
+    drives = (isinstance(scene, Start) and scene.profile.imposes_speed) or isinstance(scene, ControlledStop)
     return {
         name: load_errors.anything(name, load)
         for name, load in loads.items()
         if (family(name) in CHANGED_BY_MOTION and not (family(name) in OF_STOP and load.low == math.inf))
-        or (drives and name in DRIVE)
+        or (drives and name in DRIVE_OF_STOP.union(DRIVE))
     }
 
 
@@ -43,7 +44,7 @@ def moved_by(
     off = off or spec.takeup_weight > 0
     slowing = deceleration(spec, scene, line) if isinstance(scene, Stopping) else 0.0
     asked = 0
-    if isinstance(scene, Start) and scene.profile.imposes_speed:
+    if isinstance(scene, ControlledStop) or (isinstance(scene, Start) and scene.profile.imposes_speed):
         asked = len({drive.at for drive in spec.all_drives.values()})
     parts = change if isinstance(change, Change) else Change.any_time(change)
     return load_errors.moved(line, loads, parts, slowing, grips(spec), off, asked)
