@@ -246,6 +246,13 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         "weight on two falls, m = 2 T/g; friction of the sheaves and the carriage 5 %",
     ),
     Assumption(
+        ("takeup", "deviation"),
+        units.RATIO,
+        lambda spec: 0.0 if spec.takeup.type == "winch" else None,
+        lambda spec: Interval(-spec.takeup.dead_band, spec.takeup.dead_band),
+        "automatic winches stand still within 5 to 10 % of their tension; `dead_band`, 10 % where the file gives none",
+    ),
+    Assumption(
         ("takeup", "permanent_elongation"),
         units.SHARE,
         lambda spec: 0.0 if spec.takeup.stroke is not None else None,

@@ -47,6 +47,15 @@ def braking(spec: Conveyor, brake: Brake) -> Braking:
     return Braking(force, brake.delay, brake.rise_time)
 
 
+def braking_at_shaft(spec: Conveyor, brake: Brake) -> Braking:
+    """A brake with its own torque at the rim, without the losses of a gear: what heats it."""
+    name = _drive_of(spec, brake)
+    if name is None or brake.shaft != "motor":
+        return braking(spec, brake)
+    drive = spec.all_drives[name]
+    return Braking(brake.torque * drive.gear.ratio * 2 / drive.drum.diameter, brake.delay, brake.rise_time)
+
+
 def _drive_of(spec: Conveyor, brake: Brake) -> str | None:
     """The drive a brake acts on; none at a drum that is not driven."""
     there = [name for name, drive in spec.all_drives.items() if drive.at == brake.at]

@@ -10,9 +10,17 @@ from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.starting_gear import SoftStarter, StarDelta, in_star
 from ptmcalc.laws import start_profile
 from ptmcalc.machines.conveyor.load_sharing import steady_forces
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_line_filled, drive_force
+from ptmcalc.machines.conveyor.model import (
+    BeltLine,
+    FloatArray,
+    belt_line,
+    belt_line_filled,
+    drive_force,
+    keeps_length,
+    turns,
+)
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, PlacedDrive, Start
+from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, PlacedDrive, Run, Start
 from ptmcalc.numerics.belt.curve import CurveStage, MotorForce
 from ptmcalc.numerics.belt.library import forces
 
@@ -40,7 +48,10 @@ def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None
     if not at_tail:
         return line
     forces = steady_forces(spec, line)
-    return replace(line, tail_pull=sum(forces[name] for name in at_tail))
+    line = replace(line, tail_pull=sum(forces[name] for name in at_tail))
+    if keeps_length(spec, scene):
+        return replace(line, takeup_tension=running(spec, Run(load=scene.load), filling).mean_tension)
+    return line
 
 
 def moving_mass(line: BeltLine) -> float:
@@ -204,9 +215,8 @@ def _switched(scene: Start, drive: PlacedDrive, stages: Sequence[CurveStage], cr
 
 def _motors(drive: PlacedDrive, stages: Sequence[CurveStage], creep: float) -> MotorForce:
     """The motors of a drive, switched on."""
-    efficiency, turns = filled(drive.gear.efficiency), drive.gear.ratio / (drive.drum.diameter / 2)
-    count = drive.motor.count
-    return MotorForce(stages, (1 - creep) * turns, count * turns * efficiency, count * turns / efficiency)
+    efficiency, per_metre = filled(drive.gear.efficiency), drive.motor.count * turns(drive)
+    return MotorForce(stages, (1 - creep) * turns(drive), per_metre * efficiency, per_metre / efficiency)
 
 
 def least_pull(spec: Conveyor, scene: Start) -> float:

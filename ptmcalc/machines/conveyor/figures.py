@@ -5,7 +5,7 @@ from ptmcalc.contract.figure import Course, Figure, Marks, Moment, Threshold
 from ptmcalc.contract.report import SceneReport
 from ptmcalc.machines.conveyor.spec import Conveyor
 
-_IN_MOTION = ("start", "stop", "emergency_stop", "coast", "jam")
+_IN_MOTION = ("start", "stop", "emergency_stop", "controlled_stop", "coast", "jam")
 
 
 def _all_of_it(spec: Conveyor, scene: SceneReport) -> Marks:
@@ -30,6 +30,14 @@ FIGURES = (
             Course("tension_run_off_min", title="leaving tension"),
         ),
         "belt tension",
+    ),
+    Figure(
+        "speed_over_time",
+        "Belt speed at head and tail over time",
+        _IN_MOTION,
+        (Course("belt_speed_max", title="belt speed"),),
+        "belt speed",
+        moments=(("stop_time", "belt at standstill"), ("start_time_rigid", "full speed of the rigid belt")),
     ),
     Figure(
         "slip_over_time",

@@ -8,7 +8,7 @@ import numpy as np
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.steady_drive import FloatArray, Motors, shared_forces, steady_speed
-from ptmcalc.machines.conveyor.model import BeltLine, drive_force
+from ptmcalc.machines.conveyor.model import BeltLine, drive_force, turns
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive
 
@@ -30,7 +30,7 @@ def motors_of(spec: Conveyor) -> dict[str, Motors]:
         name: Motors(
             curve=curve,
             count=drive.motor.count,
-            turns=drive.gear.ratio / (drive.drum.diameter / 2),
+            turns=turns(drive),
             efficiency=filled(drive.gear.efficiency),
         )
         for name, drive in drives.items()

@@ -29,6 +29,10 @@ BRAKING_FORCE, BRAKING_RESERVE, BRAKING_POWER = "braking_force_needed", "braking
 """What a controlled stop requires of the drives."""
 DRIVE_OF_STOP = frozenset({BRAKING_FORCE, BRAKING_RESERVE, BRAKING_POWER})
 
+BRAKE_HEAT, BRAKE_POWER = "brake_heat", "brake_power_mean"
+"""Families: heat of each brake in a stop, and its mean power."""
+OF_BRAKES = frozenset({BRAKE_HEAT, BRAKE_POWER})
+
 AT_DRUM = frozenset({"tension_run_on_max", "tension_dynamic_run_on_max", "tension_run_off_min", *GRIP})
 """Loads known from the two tensions at the drive drum."""
 
@@ -91,7 +95,15 @@ TAKEUP_WAYS = frozenset({"takeup_movement", TAKEUP_TOTAL, *TAKEUP_CLEARANCES})
 RUN_BACK_DISTANCE, RUN_BACK_SPEED = "run_back_distance", "run_back_speed"
 """Backward motion of the belt at the drives in an aborted start."""
 
-OF_NETWORK = OF_BELT.union(OF_STOP, TAKEUP_WAYS, {RUN_BACK_DISTANCE, RUN_BACK_SPEED})
+BELT_SPEED, MOTOR_SPEED = "belt_speed_max", "motor_speed_max"
+"""Families: largest speed of the belt at head and tail, and of the motors of each drive."""
+ENDS = ("head", "tail")
+"""Places at which speeds of the belt are reported."""
+
+OF_SPEED = frozenset({RUN_BACK_DISTANCE, RUN_BACK_SPEED, BELT_SPEED, MOTOR_SPEED})
+"""Speeds of belt and motors, and the run-back distance."""
+
+OF_NETWORK = OF_BELT.union(OF_STOP, TAKEUP_WAYS, OF_BRAKES, OF_SPEED)
 """Loads that a march over the whole belt gives, besides those of each drive."""
 
 CHANGED_BY_MOTION = OF_NETWORK | PER_DRIVE
@@ -109,7 +121,10 @@ def parts_of(loads: Iterable[LoadInfo], spec: Conveyor) -> Iterator[LoadInfo]:
         if info.name == "natural_frequency":
             yield from (info.of(str(number)) for number in range(1, FREQUENCIES + 1))
             continue
-        if info.name == "motor_utilisation":
+        if info.name == BELT_SPEED:
+            yield from (info.of(place) for place in ENDS)
+            continue
+        if info.name in ("motor_utilisation", MOTOR_SPEED):
             yield from (info.of(name) for name in spec.all_drives)
             continue
         if info.name not in SLIPS:

@@ -17,7 +17,7 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.brakes import braked_shafts
 from ptmcalc.machines.conveyor.keys.route import Section
 from ptmcalc.machines.conveyor.resistances import Extra, extra_forces, filled, idler_friction
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Start, Stopping
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Run, Start, Stopping
 from ptmcalc.numerics import lanes
 
 FloatArray = NDArray[np.float64]
@@ -121,11 +121,19 @@ class BeltLine:
         """
         if self.weight_at_tail:
             return self.takeup_tension - self.tail_step / 2 - self.back.rise
-        if not self.fixed_length:
-            return self.takeup_tension
+        return self.takeup_tension - self._mean_rise if self.fixed_length else self.takeup_tension
+
+    @property
+    def _mean_rise(self) -> float:
+        """Mean tension of the loop over that at the run-off [N]."""
         before = self.back.rise + self.tail_step
         rises = self.back.mean_rise * self.back.length + (before + self.carry.mean_rise) * self.carry.length
-        return self.takeup_tension - rises / (self.back.length + self.carry.length)
+        return rises / (self.back.length + self.carry.length)
+
+    @property
+    def mean_tension(self) -> float:
+        """Mean static tension of the loop [N]."""
+        return self.run_off + self._mean_rise
 
     @property
     def keeps_run_off(self) -> bool:
@@ -189,6 +197,7 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
     given = spec.resistance
     loads = [load_line_mass(spec) if full else 0.0 for full in filling]
     extra, drum = extra_forces(spec, load_line_mass(spec)), spec.main_drive.drum
+    winds = keeps_length(spec, scene)
     return BeltLine(
         gravity=spec.gravity,
         speed=spec.speed,
@@ -199,14 +208,29 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
         tail_force=(given.secondary_force or 0.0) + extra.at_tail(filling[0]),
         drive_mass=sum(drive_masses(spec, scene).values()),
         tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
-        fixed_length=spec.takeup.type == "rigid",
-        takeup_tension=spec.takeup.tension,
+        fixed_length=spec.takeup.type == "rigid" or winds,
+        takeup_tension=_set_tension(spec, scene, filling) if winds else kept_tension(spec),
         grip_exponent=drum.friction * drum.wrap if drum.friction is not None else None,
         breaking_force=breaking_force(spec),
         slack_sag=spec.checks.slack_sag,
         speed_share=given.speed_share,
         weight_at_tail=spec.takeup.pulls_tail,
     )
+
+
+def kept_tension(spec: Conveyor) -> float:
+    """Tension that the take-up keeps, or has when it is set [N]; that of a winch deviates within its dead band."""
+    return spec.takeup.tension * (1 + (spec.takeup.deviation or 0.0))
+
+
+def keeps_length(spec: Conveyor, scene: ConveyorScene) -> bool:
+    """Whether a winch stands still in a scene: it is too slow for starts and stops."""
+    return spec.takeup.type == "winch" and not isinstance(scene, Run)
+
+
+def _set_tension(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool]) -> float:
+    """Mean tension of a loop whose winch has set it in steady running [N]; drives at the tail take no share yet."""
+    return belt_line_filled(spec, Run(load=scene.load), filling).mean_tension
 
 
 def _strand(spec: Conveyor, scene: ConveyorScene, loads: Sequence[float], extra: Extra, *, carries: bool) -> Strand:
@@ -330,6 +354,11 @@ def drive_mass(drive: Drive, driven: bool = False, *, starts: bool = False) -> f
         filled(drive.drum.inertia),
         drive.drum.diameter / 2,
     )
+
+
+def turns(drive: Drive) -> float:
+    """Turn of the motor shaft per travel of the belt, i/R [rad/m]."""
+    return drive.gear.ratio / (drive.drum.diameter / 2)
 
 
 @kept_for(64)

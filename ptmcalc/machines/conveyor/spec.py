@@ -21,12 +21,14 @@ from ptmcalc.machines.conveyor.keys.takeup import TakeUp
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Fraction,
+    HourlyRate,
     Inertia,
     Length,
     PositiveAcceleration,
     PositiveAngle,
     PositiveEnergy,
     PositiveLength,
+    PositivePower,
     PositiveRatio,
     PositiveSpan,
     PositiveSpeed,
@@ -41,6 +43,9 @@ from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 from ptmcalc.spec.shape import Also
+
+_HOUR = 3600.0
+"""Seconds of an hour."""
 
 
 class DriveDrum(Fragment):
@@ -135,6 +140,17 @@ class Brake(Fragment):
     """from the command to the start of the braking torque; 0 is assumed when it is left out, and 0.4 s"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
     """from then to full torque, linear rise"""
+    stop_heat: Annotated[PositiveEnergy | None, Limit()] = None
+    """heat that the brake takes in one stop, of the data sheet"""
+    heat_power: Annotated[PositivePower | None, Limit()] = None
+    """heat power that the brake dissipates on average, of the data sheet; with `stops_per_hour`"""
+    stops_per_hour: Annotated[HourlyRate | None, Limit()] = None
+    """stops per hour with this brake"""
+
+    @property
+    def stop_rate(self) -> float:
+        """Stops per second; 0 where the file gives no number [1/s]."""
+        return (self.stops_per_hour or 0.0) / _HOUR
 
 
 class Backstop(Fragment):
@@ -423,7 +439,7 @@ class Conveyor(MachineSpec):
 
     @property
     def takeup_weight(self) -> float:
-        """Mass of the take-up weight [kg]; 0 of a rigid take-up, and where the file leaves its inertia out."""
+        """Mass of the take-up weight [kg]; 0 of a winch or screw, and where the file leaves its inertia out."""
         return 0.0 if self.effects.get("takeup_mass") == "off" else self.takeup.mass or 0.0
 
     def stop_distance_key(self, scene: ConveyorScene) -> KeyPath:

@@ -12,6 +12,7 @@ from ptmcalc.machines.conveyor.holding.scenes import elsewhere, rest_factor
 from ptmcalc.machines.conveyor.model import (
     belt_line,
     special_resistance,
+    turns,
 )
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import (
@@ -63,8 +64,7 @@ def _stalled_force(spec: Conveyor) -> float:
         curve = drive.running_curve
         if drive.at == "head" and curve is not None:
             most = float(torques_up_to(curve, filled(curve.no_load_speed)).max())
-            turns = drive.gear.ratio / (drive.drum.diameter / 2)
-            found += drive.motor.count * most * turns * filled(drive.gear.efficiency)
+            found += drive.motor.count * most * turns(drive) * filled(drive.gear.efficiency)
     return found
 
 

@@ -10,10 +10,11 @@ from ptmcalc.spec.fields import (
     PositiveLength,
     PositiveMass,
     PositiveThermalExpansion,
+    Ratio,
     TemperatureDifference,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
-from ptmcalc.spec.optional import Assumed, Checked
+from ptmcalc.spec.optional import Assumed, Checked, Setting
 from ptmcalc.spec.shape import Also
 
 _OF_BUDGET = ("temperature_range", "installation", "position")
@@ -22,17 +23,23 @@ _OF_BUDGET = ("temperature_range", "installation", "position")
 class TakeUp(Fragment):
     """Take-up of the belt."""
 
-    type: Literal["gravity", "rigid"]
-    """`gravity`: a weight keeps the belt tension at its place; `rigid`: a screw or locked winch"""
+    type: Literal["gravity", "winch", "rigid"]
+    """`gravity`: a weight keeps the belt tension at its place; `winch`: a winch keeps it in steady running, and the
+    belt length in starts and stops; `rigid`: a screw or locked winch"""
     at: Literal["head", "tail"] = "head"
-    """`head`: a weight behind the head pulleys; `tail`: a weight that pulls the tail pulley; a screw may be anywhere"""
+    """`head`: a weight or winch behind the head pulleys; `tail`: a weight that pulls the tail pulley; a screw may be
+    anywhere"""
     tension: PositiveForce
-    """belt tension: leaving tension (gravity at the head), mean of both sides of the tail pulley (gravity at the tail),
-    or the mean of the loop when it was set (rigid)"""
+    """belt tension: leaving tension (gravity at the head, winch), mean of both sides of the tail pulley (gravity at the
+    tail), or the mean of the loop when it was set (rigid)"""
     mass: Annotated[PositiveMass | None, Assumed(), Also("counterweight_mass")] = None
     """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
     stroke: Annotated[PositiveLength | None, Checked(), Also("travel")] = None
     """available take-up travel; needed to check it"""
+    dead_band: Annotated[Fraction, Setting("the interval of `deviation` is that of usual winches")] = 0.1
+    """largest deviation of the tension, relative to `tension`, at which the winch stands still; 5 to 10 % is usual"""
+    deviation: Annotated[Ratio | None, Assumed()] = None
+    """deviation of the tension relative to `tension` when a scene begins (winch); assumed 0 within `dead_band`"""
     permanent_elongation: Annotated[Fraction | None, Assumed()] = None
     """of the belt over its life, as a share of its length; adds to the required take-up travel"""
     temperature_range: Annotated[TemperatureDifference | None, Assumed()] = None
@@ -57,7 +64,13 @@ class TakeUp(Fragment):
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Only a weight has a mass and a position; shares of the travel are compared with the stroke."""
-        if given.word("type") == "rigid":
+        if given.word("type") == "winch" and given.word("at") == "tail":
+            reason = "`tension` of a winch is the leaving tension of the drive pulley"
+            yield Conflict(("at",), reason, "write `at: head`, or `type: gravity`")
+        for key in ("dead_band", "deviation"):
+            if key in given and given.word("type") in ("gravity", "rigid"):
+                yield Conflict((key,), "only a winch has it", f"delete `{key}`, or write `type: winch`")
+        if given.word("type") in ("rigid", "winch"):
             if "mass" in given:
                 yield Conflict(("mass",), "a fixed take-up does not move", "delete `mass`, or write `type: gravity`")
             if "position" in given:

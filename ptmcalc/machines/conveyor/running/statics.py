@@ -170,7 +170,7 @@ def _of_running(
             2,
         ),
     }
-    if not line.fixed_length:
+    if spec.takeup.type == "gravity":
         loads["takeup_mass"] = value(belt_resistance.takeup_mass, mounting, 2, spec.gravity)
     spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span is not None]
     if len(spans) == 2:

@@ -13,12 +13,13 @@ from ptmcalc.laws import loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.loads import DRIVE_OF_STOP, OF_BELT, OF_STOP, PER_DRIVE, ways_of
+from ptmcalc.machines.conveyor.loads import DRIVE_OF_STOP, OF_BELT, OF_BRAKES, OF_STOP, PER_DRIVE, ways_of
 from ptmcalc.machines.conveyor.model import loop_masses
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, rounds
 from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
 from ptmcalc.machines.conveyor.spec import Coast, ControlledStop, Conveyor, ConveyorScene, EmergencyStop, Jam, Stop
 from ptmcalc.machines.conveyor.stopping import controlled, stiff_bounds
+from ptmcalc.machines.conveyor.stopping.brake_heat import rigid_heat
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
@@ -67,7 +68,7 @@ def rigid_loads(spec: Conveyor, scene: ConveyorScene) -> dict[str, float]:
         "tension_max": max(highs),
         "tension_min": min(lows),
     }
-    found |= {"stop_time": time} | dict.fromkeys(ways_of(scene), way)
+    found |= {"stop_time": time} | rigid_heat(spec, scene) | dict.fromkeys(ways_of(scene), way)
     return found | controlled.rigid_loads(spec, scene) if isinstance(scene, ControlledStop) else found
 
 
@@ -94,7 +95,7 @@ STIFF_STOP: Solver[Conveyor, ConveyorScene] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Stop, EmergencyStop, ControlledStop, Coast, Jam}),
     represents=frozenset(),
-    gives=OF_BELT.union(OF_STOP, PER_DRIVE, DRIVE_OF_STOP),
+    gives=OF_BELT.union(OF_STOP, PER_DRIVE, DRIVE_OF_STOP, OF_BRAKES),
     run=run,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="Newton's law; bounds derived in ptmcalc.machines.conveyor.stopping.stiff_bounds",

@@ -47,10 +47,11 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS, ways_of
+from ptmcalc.machines.conveyor.loads import OF_BRAKES, PER_DRIVE, SLIPS, WAYS_OF_STOP, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, loop_masses
 from ptmcalc.machines.conveyor.rigid_stop import rigid_stop
 from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, Stopping
+from ptmcalc.machines.conveyor.stopping.brake_heat import moved_heat, rigid_heat
 
 FloatArray = NDArray[np.float64]
 
@@ -245,6 +246,7 @@ def loads(stop: ShortStop) -> dict[str, float]:
     if stop.line.grip_exponent is not None:
         found |= {of(name, drive): 0.0 for name in SLIPS}
     time, way = rigid_stop(stop.spec, stop.scene, stop.line)
+    found |= rigid_heat(stop.spec, stop.scene)
     return found | {"stop_time": time} | dict.fromkeys(ways_of(stop.scene), way)
 
 
@@ -253,7 +255,10 @@ def offsets(stop: ShortStop, values: Mapping[str, Estimate]) -> dict[str, Interv
     held = stop.held()
     held["stop_time"], way = stop.rest()
     held |= dict.fromkeys(ways_of(stop.scene), way)
-    return {
+    ways = [one for name, one in values.items() if name in WAYS_OF_STOP]
+    apart = max((max(way.high - one.value, one.value - way.low) for one in ways), default=math.inf)
+    heats = {name: moved_heat(stop.spec, name, apart) for name in values if family(name) in OF_BRAKES}
+    return heats | {
         name: Interval(held[family(name)].low - one.value, held[family(name)].high - one.value)
         for name, one in values.items()
         if family(name) in held

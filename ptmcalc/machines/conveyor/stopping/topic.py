@@ -5,6 +5,9 @@ from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
 from ptmcalc.machines.conveyor.loads import BRAKING_FORCE, BRAKING_POWER, BRAKING_RESERVE
 from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.stopping.brake_heat import HEAT, RIGID_HEAT, brake_parts
+from ptmcalc.machines.conveyor.stopping.brake_heat import LOADS as HEAT_LOADS
+from ptmcalc.machines.conveyor.stopping.brake_heat import POWER as HEAT_POWER
 from ptmcalc.machines.conveyor.stopping.checks import BRAKE, STOP, STOP_TIME
 from ptmcalc.machines.conveyor.stopping.controlled import FORCE, POWER, RIGID_BRAKING
 from ptmcalc.machines.conveyor.stopping.formulas import BRAKING, BRAKING_NOTES, IDENTIFY, RIGID_STOP
@@ -24,7 +27,8 @@ LOADS = (
 )
 
 STOPPING: Topic[Conveyor] = Topic(
-    loads=LOADS,
-    solvers=(BRAKING, BRAKING_NOTES, IDENTIFY, RIGID_STOP, RIGID_BRAKING, STIFF_STOP),
-    checks=(STOP, STOP_TIME, BRAKE, FORCE, POWER),
+    loads=(*LOADS, *HEAT_LOADS),
+    parts=lambda spec: (*LOADS, *brake_parts(spec)),
+    solvers=(BRAKING, BRAKING_NOTES, IDENTIFY, RIGID_STOP, RIGID_BRAKING, RIGID_HEAT, STIFF_STOP),
+    checks=(STOP, STOP_TIME, BRAKE, FORCE, POWER, HEAT, HEAT_POWER),
 )

@@ -35,10 +35,11 @@ import numpy as np
 from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import capstan
-from ptmcalc.machines.conveyor.loads import BRAKING_FORCE, BRAKING_RESERVE, GRIP, OF_STOP, SLIPS, TENSIONS
+from ptmcalc.machines.conveyor.loads import BRAKING_FORCE, BRAKING_RESERVE, GRIP, OF_BRAKES, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import grips
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.rigid_stop import deceleration
+from ptmcalc.machines.conveyor.stopping.brake_heat import moved_heat
 from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.cell_loads import LOW_CARRY, LOW_RETURN, OneGrid, Values
 from ptmcalc.numerics import peaks
@@ -189,9 +190,8 @@ def _moved(case: Moving, fine: Values, change: float) -> dict[str, Interval]:
     held = case.imposed is not None and case.brings_to_rest  # the head comes to rest on time
     slowing = math.inf if held else deceleration(case.spec, case.scene, case.line)
     heavy = case.spec.takeup_weight > 0
-    return load_errors.moved(
-        case.line, loads, load_errors.Change.any_time(change), slowing, grips(case.spec), off=heavy
-    )
+    parts = load_errors.Change.any_time(change)
+    return load_errors.moved(case.spec, case.line, loads, parts, slowing, off=heavy)
 
 
 def _of_laws(case: Moving, grids: Grids, found: Mapping[str, Interval], front: float) -> dict[str, Interval]:
@@ -240,6 +240,8 @@ def _of_slipping_stop(case: Moving, grids: Grids, rest: Rest) -> dict[str, Inter
             bar = _still_to_come(grids, name) + ends * (1.0 if timed else case.speed)
             sides = rest.time if timed else rest.distance
             found[name] = Interval(sides.low - bar, sides.high + bar)
+        elif family(name) in OF_BRAKES:
+            found[name] = _either(_still_to_come(grids, name) + moved_heat(case.spec, name, ends * case.speed).high)
     return found
 
 

@@ -5,16 +5,20 @@ from collections.abc import Iterator
 import numpy as np
 
 from ptmcalc.base import units
-from ptmcalc.contract.result import Event, Finding, History, of
+from ptmcalc.contract.result import Event, Finding, History, family, of
 from ptmcalc.laws import capstan
+from ptmcalc.machines.conveyor.loads import MOTOR_SPEED
 from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.motion import Moving
+from ptmcalc.machines.conveyor.waves.cell_loads import speeds_of
 from ptmcalc.machines.conveyor.waves.cells import Set
+from ptmcalc.machines.conveyor.waves.takeup_stops import sinking
 from ptmcalc.numerics.belt.march import Drawn
 
 
 def histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
-    """Tensions and grip of every drive over time, and the extreme tensions over the way round the loop."""
+    """Tensions, grip, speed and slip of every drive, speed of the belt and position of the take-up over time, and the
+    extreme tensions over the way round the loop."""
     times = drawn.times.tolist()
 
     def over_time(values: FloatArray, quantity: units.Quantity = units.FORCE) -> History:
@@ -32,6 +36,9 @@ def histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
             on, off = history.tensions[:, index], history.tensions[:, index + 1]
             found[of("tension_run_on_max", drum.name)] = over_time(on)
             found[of("tension_run_off_min", drum.name)] = over_time(off)
+            apart = np.abs(history.drums[:, index] - history.belt) * (history.slips[:, index] != 0)
+            slid = np.concatenate([[0.0], np.cumsum((apart[1:] + apart[:-1]) / 2)]) * float(drawn.times[1])
+            found[of("slip_distance", drum.name)] = over_time(slid, units.SPAN)
             given = names[drum.name].drum
             if given.friction is not None:
                 lift = case.line.belt_line_mass * history.belt**2
@@ -43,6 +50,10 @@ def histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
                 grips.append(used)
     if grips:
         found["slip_utilisation_max"] = over_time(np.max(grips, axis=0), units.RATIO)
+    for name, speeds in speeds_of(case, drawn, ready).items():
+        found[name] = over_time(speeds, units.ANGULAR_SPEED if family(name) == MOTOR_SPEED else units.SPEED)
+    if not case.line.fixed_length:
+        found["takeup_movement"] = over_time(sinking(case, drawn), units.LENGTH)
     middle = (ready.course.places[1:] + ready.course.places[:-1]) / 2
     found["tension_max"] = History(units.FORCE, middle.tolist(), drawn.highest.tolist(), units.SPAN)
     found["tension_min"] = History(units.FORCE, middle.tolist(), drawn.lowest.tolist(), units.SPAN)

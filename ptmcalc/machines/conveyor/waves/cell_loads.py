@@ -9,19 +9,24 @@ from ptmcalc.contract.result import of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
+from ptmcalc.machines.conveyor.brakes import brakes_of, braking_at_shaft
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.loads import (
+    BELT_SPEED,
+    BRAKE_HEAT,
     BRAKING_FORCE,
     BRAKING_POWER,
     BRAKING_RESERVE,
+    MOTOR_SPEED,
     RUN_BACK_DISTANCE,
     RUN_BACK_SPEED,
     may_run_back,
 )
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, braking_force, starting_force
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, braking_force, starting_force, turns
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import ControlledStop, Start
+from ptmcalc.machines.conveyor.stopping.brake_heat import with_power
 from ptmcalc.machines.conveyor.takeup.travel import moved
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.machines.conveyor.waves.takeup_stops import sinking
@@ -102,6 +107,7 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
         way = sinking(case, drawn)
         values["takeup_movement"] = float(way.max() - way.min()), {}
         values |= {name: (value, {}) for name, value in moved(case.spec, way).items()}
+    _speeds(found, case, drawn, ready)
     if case.brings_to_rest:
         values |= _rest(case, belt, drawn.times)
         values |= _longest_way(case, drawn, values)
@@ -109,6 +115,7 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
         _run_back(found, case, drawn, step)
     if isinstance(case.scene, Start) and case.scene.profile.imposes_speed:
         _asked(found, case, drawn, ready)
+    _of_brakes(found, case, drawn)
     if isinstance(case.scene, ControlledStop):
         _held_back(found, case, drawn, ready)
     return found
@@ -162,6 +169,25 @@ def _in_curve(line: BeltLine, drawn: Drawn, ready: Set, curve: Curve) -> float:
     return float(drawn.highest[touched].max())
 
 
+def _speeds(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
+    """Largest speed of the belt at head and tail, and of the motors of each drive."""
+    for name, speeds in speeds_of(case, drawn, ready).items():
+        found.traces[name] = trace = Trace(speeds, ready.course.step)
+        value, at = trace.extreme()
+        found.values[name] = value, {"time": at}
+
+
+def speeds_of(case: Moving, drawn: Drawn, ready: Set) -> dict[str, FloatArray]:
+    """Speed of the belt at head and tail [m/s] and of the motors of each drive [rad/s] over time."""
+    drives, found = case.spec.all_drives, {}
+    for place, station, history in (("head", ready.head, drawn.head), ("tail", ready.tail, drawn.tail)):
+        found[of(BELT_SPEED, place)] = history.belt
+        for drum, speeds in zip(station.drums, history.drums.T, strict=True):
+            if drum.name in drives:
+                found[of(MOTOR_SPEED, drum.name)] = speeds * turns(drives[drum.name])
+    return found
+
+
 def _run_back(found: OneGrid, case: Moving, drawn: Drawn, step: float) -> None:
     """How far and how fast the belt at the drives runs back."""
     lost, speed = np.zeros(len(drawn.times)), np.zeros(len(drawn.times))
@@ -184,6 +210,16 @@ def _asked(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
     reserve = available / needed if needed > 0 else math.inf
     values = found.values
     values |= {"starting_force_needed": (needed, {"time": at}), "starting_reserve": (reserve, {})}
+
+
+def _of_brakes(found: OneGrid, case: Moving, drawn: Drawn) -> None:
+    """Heat of each brake: its torque times the speed of its shaft."""
+    spec, heats = case.spec, {}
+    for name, brake in brakes_of(spec, case.scene).items():
+        drums = (drawn.head if brake.at == "head" else drawn.tail).drums
+        force = np.array([braking_at_shaft(spec, brake).at(time) for time in drawn.times.tolist()])
+        heats[of(BRAKE_HEAT, name)] = float(np.trapezoid(force * np.abs(drums[:, -1]), drawn.times))
+    found.values.update({name: (heat, {}) for name, heat in with_power(spec, heats).items()})
 
 
 def _held_back(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
-from ptmcalc.contract.result import family
+from ptmcalc.contract.result import family, of
 from ptmcalc.laws import sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.loads import (
+    BELT_SPEED,
     BRAKING_FORCE,
     BRAKING_POWER,
     BRAKING_RESERVE,
@@ -19,6 +20,8 @@ from ptmcalc.machines.conveyor.loads import (
     DRIVE_OF_STOP,
     GRIP,
     LOWEST,
+    MOTOR_SPEED,
+    OF_BRAKES,
     OF_STOP,
     RUN_BACK_DISTANCE,
     RUN_BACK_SPEED,
@@ -27,8 +30,10 @@ from ptmcalc.machines.conveyor.loads import (
     TENSIONS,
     WAYS_OF_STOP,
 )
-from ptmcalc.machines.conveyor.model import BeltLine
+from ptmcalc.machines.conveyor.model import BeltLine, grips, turns
+from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads
+from ptmcalc.machines.conveyor.stopping.brake_heat import moved_heat
 from ptmcalc.machines.conveyor.traction.bounds import moved_grip
 
 _SAME = 1e-9
@@ -98,18 +103,18 @@ class Change:
 
 
 def moved(
+    spec: Conveyor,
     line: BeltLine,
     loads: Mapping[str, Estimate],
     change: Change,
     slowing: float,
-    grips: Mapping[str, float],
     off: bool = False,
     asked: int = 0,
 ) -> dict[str, Interval]:
     """How far loads may be off when tensions may be off by `change`, of any scene and any number of drives.
 
     The run-off tension of a constant take-up does not move unless `off` says so. Grip follows from the tensions at its
-    drum (`traction.bounds`), `grips` being mu alpha; where it still holds, nothing slips. An imposed speed asks of the
+    drum (`traction.bounds`); where it still holds, nothing slips. An imposed speed asks of the
     drives at `asked` ends of the belt a force that both tensions there enter. The mean of all that moves follows
     Newton's law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to
     rest by what a wave of that size makes of its speed; a belt that slips on its braked pulley has neither bound:
@@ -119,6 +124,8 @@ def moved(
     The speed of a wave of that size is 2 change/Z at most.
     """
     found: dict[str, Interval] = {}
+    exponents = grips(spec)
+    turning = {of(MOTOR_SPEED, name): turns(drive) for name, drive in spec.all_drives.items()}
     fixed = off or not line.keeps_run_off
     most = max(change.largest, change.smallest)
     stretch = most * (line.back.length + line.carry.length) / line.stiffness
@@ -130,7 +137,7 @@ def moved(
     def grip(name: str) -> Interval:
         there = change.at_grip if _grips(name, loads) else max(most, change.at_grip)
         off = there if fixed or several else 0.0
-        return moved_grip(name, loads, line.centrifugal_at_speed, grips, there, off)
+        return moved_grip(name, loads, line.centrifugal_at_speed, exponents, there, off)
 
     def holds(name: str) -> bool:
         """Whether the drum of a load of slip keeps its grip."""
@@ -159,10 +166,14 @@ def moved(
             found[name] = moved_drive(loads, 2 * asked * most)[kind]
         elif kind in DRIVE_OF_STOP and asked:
             found[name] = moved_braking(line, loads, 2 * asked * most)[kind]
+        elif kind in OF_BRAKES:
+            found[name] = anything(name, estimate) if slips else moved_heat(spec, name, stretch)
         elif kind in WAYS_OF_STOP or kind in TAKEUP_WAYS or kind == RUN_BACK_DISTANCE:
             found[name] = Interval(-stretch, stretch)
-        elif kind == RUN_BACK_SPEED:
+        elif kind in (RUN_BACK_SPEED, BELT_SPEED):
             found[name] = Interval(-2 * most / least, 2 * most / least)
+        elif kind == MOTOR_SPEED:
+            found[name] = Interval(-2 * most / least * turning[name], 2 * most / least * turning[name])
         elif kind == "stop_time":
             found[name] = Interval(-delay, delay)
         elif kind in CHANGED_BY_MOTION and not (kind in SLIPS and holds(name)):

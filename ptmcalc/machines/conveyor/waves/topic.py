@@ -1,6 +1,9 @@
 """Belt waves: effects, their bounds without simulation, and the simulations."""
 
+from ptmcalc.base import units
+from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.conveyor.loads import BELT_SPEED, MOTOR_SPEED, parts_of
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.waves.effects.damping import BELT_DAMPING
@@ -16,7 +19,14 @@ from ptmcalc.machines.conveyor.waves.first_wave import FIRST_WAVE
 from ptmcalc.machines.conveyor.waves.network import NETWORK, RUNNING_NETWORK
 from ptmcalc.machines.conveyor.waves.two_interval import TWO_INTERVAL
 
+LOADS = (
+    LoadInfo(BELT_SPEED, "belt speed, maximum in the simulated window", units.SPEED, headline=False),
+    LoadInfo(MOTOR_SPEED, "motor speed, maximum in the simulated window", units.ANGULAR_SPEED, headline=False),
+)
+
 WAVES: Topic[Conveyor] = Topic(
+    loads=LOADS,
+    parts=lambda spec: parts_of(LOADS, spec),
     effects=(
         BELT_WAVE,
         TAIL_JUMP,

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, DRIVE_OF_STOP, OF_STOP
-from ptmcalc.machines.conveyor.model import BeltLine, grips
+from ptmcalc.machines.conveyor.model import BeltLine
 from ptmcalc.machines.conveyor.plain_start import slides_at_rest
 from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
@@ -47,7 +47,7 @@ def moved_by(
     if isinstance(scene, ControlledStop) or (isinstance(scene, Start) and scene.profile.imposes_speed):
         asked = len({drive.at for drive in spec.all_drives.values()})
     parts = change if isinstance(change, Change) else Change.any_time(change)
-    return load_errors.moved(line, loads, parts, slowing, grips(spec), off, asked)
+    return load_errors.moved(spec, line, loads, parts, slowing, off, asked)
 
 
 def small_change(
