@@ -195,7 +195,7 @@ OUTWARD: AnyCheck = _sides(
         what="The belt drifts outward in a horizontal curve by at most the distance from its edge to the end of the"
         " wing roll. Banking and centrifugal force move it outward where its tension is small, most of all when it is"
         " loaded. Scenes as for the drift inward, with their least tension in the curve.",
-        why="A curve that is banked for the largest tension throws the belt off where the tension is small.",
+        why="A curve that is banked for the largest tension lets the belt drift outward where the tension is small.",
         formula=_BALANCE + ",   S = S_min,   -y <= limit",
         source=_SOURCE,
     ),
