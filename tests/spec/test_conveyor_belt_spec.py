@@ -244,7 +244,7 @@ VALUES: dict[str, tuple[tuple[str, str], str, str, str]] = {
         ("carry_pitch: 1 m", "horizontal_curve: {radius: 20 m}"),
         "SPC113",
         "route.sections[0].horizontal_curve.radius",
-        "20 m",
+        "radius: 20 m",
     ),
     "a transition elsewhere": (("tail: {length: 2 m}", "tial: {length: 2 m}"), "SPC104", "transitions.tial", "tial"),
     "a transition without its length": (
