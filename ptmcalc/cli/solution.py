@@ -88,7 +88,7 @@ def _spare(loaded: Loaded, wanted: AnyCheck, margin: str) -> Spare:
         return lambda limit: 0.0
     assert loaded.kind is not None
     assert loaded.spec is not None
-    quantity = loaded.kind.load_info(loaded.spec, wanted.loads[0]).quantity
+    quantity = loaded.kind.quantity_of(loaded.spec, wanted)
     share = margin.strip().endswith("%")
     try:
         number = float(margin.strip().removesuffix("%")) / 100 if share else read(margin, quantity)

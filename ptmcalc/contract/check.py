@@ -8,6 +8,7 @@ from typing import Any, Generic, TypeVar
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.base.units import Quantity
 from ptmcalc.contract.effect import C, S
 from ptmcalc.contract.result import of
 from ptmcalc.spec.machine import MachineSpec
@@ -75,6 +76,8 @@ class Check(Generic[S, C]):
     repairs_blame: bool = False
     forbids_band: bool = False
     """True if values of the repair key on both sides of the failing interval pass"""
+    quantity: Quantity | None = None
+    """quantity of the value; that of the first load when left out"""
     types: frozenset[str] = frozenset()
     """types of the kind that the check applies to; empty for all types with one of its scenes"""
 

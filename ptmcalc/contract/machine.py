@@ -145,6 +145,10 @@ class MachineKind(Generic[S]):
         """The tables that a kind adds to the report of a machine."""
         return tuple(self.tables(spec, scenes)) if self.tables else ()
 
+    def quantity_of(self, spec: S, check: AnyCheck) -> Quantity:
+        """The quantity of the value of a check."""
+        return check.quantity or self.load_info(spec, check.loads[0]).quantity
+
     def load_info(self, spec: S, name: str) -> LoadInfo:
         """What is known of a load of a machine, or of a family, as a check that is switched off names it."""
         known = (info for infos in (self.loads_of(spec), self.loads) for info in infos if info.name == name)

@@ -446,7 +446,7 @@ class _Assembly:
             value=ruling.value,
             limit=ruling.limit,
             sense=check.sense,
-            quantity=self.kind.load_info(self.spec, check.loads[0]).quantity,
+            quantity=self.kind.quantity_of(self.spec, check),
             margin=ruling.margin,
             blame=Place(blame, _span(document, blame)),
             element=check.element,

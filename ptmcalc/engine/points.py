@@ -341,7 +341,7 @@ class Study:
         left = np.zeros(where.size, bool)
         for (code, element), (said, value, limit) in found.rulings.items():
             one = found.checks[code, element]
-            quantity = self._kind.load_info(found.spec, one.loads[0]).quantity
+            quantity = self._kind.quantity_of(found.spec, one)
             track = self._track(label, code, element, one.title, one.sense, quantity)
             track.said[where], track.value[where], track.limit[where] = said, value, limit
             left |= said == Said.UNDECIDED

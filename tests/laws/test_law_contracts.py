@@ -46,6 +46,7 @@ from ptmcalc.laws import (
     gearing,
     hoist_class,
     hoisting,
+    horizontal_curve,
     idler_roll,
     inertia,
     lift_off,
@@ -443,6 +444,15 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     belt_section.minimum_pulley_diameter: [("polyester", 0.006)],
     belt_section.transition_strains: [(3.0, 0.4, 0.38, 0.7, 0.05)],
     belt_section.transition_length: [(0.002, 0.4, 0.38, 0.7, 0.05), (0.002, 0.4, 0.38, 0.7, 0.5)],
+    horizontal_curve.inward_force: [(6e4, 20.0, 4.0, 1500.0)],
+    horizontal_curve.bed_width: [(0.46, 0.6, 0.12, 0.26), (0.46, 0.6, 0.005, 0.26), (0.46, 0.6, 0.12, 0.0)],
+    horizontal_curve.drift: [
+        (1.2, 0.46, 0.6, beta, 200.0, load, area, 0.26, pull, 2.0, rule)
+        for beta, pull in ((0.08, 40.0), (0.0, -3.0), (0.2, 900.0))
+        for load, area in ((0.0, 0.0), (1800.0, 0.12), (60.0, 0.004))
+        for rule in horizontal_curve.RULES
+    ],
+    horizontal_curve.edge_strain: [(0.46, 0.37, 0.6, 1500.0)],
     vertical_curve.lift_off_radius: [(6e4, 22.0, 5.0, 9.81, 0.98), (100.0, 22.0, 5.0, 9.81, 0.98)],
     vertical_curve.lift_off_tension: [(250.0, 22.0, 5.0, 9.81, 0.98)],
     vertical_curve.idler_line_load: [(6e4, 250.0, 22.0, 5.0, 9.81, 0.98, convex) for convex in (False, True)],

@@ -228,11 +228,23 @@ VALUES: dict[str, tuple[tuple[str, str], str, str, str]] = {
         "route.sections[1].curve_radus",
         "curve_radus",
     ),
-    "a trough of the return strand": (
-        ("pitch: 3 m", "pitch: 3 m\n" + TROUGH),
-        "SPC104",
-        "idlers.return.trough",
-        "trough",
+    "a horizontal curve without its radius": (
+        ("carry_pitch: 1 m", "horizontal_curve: {banking: 5 deg}"),
+        "SPC103",
+        "route.sections[0].horizontal_curve.radius",
+        "horizontal_curve",
+    ),
+    "banking beyond any idler": (
+        ("carry_pitch: 1 m", "horizontal_curve: {radius: 900 m, banking: 35 deg}"),
+        "SPC110",
+        "route.sections[0].horizontal_curve.banking",
+        "35 deg",
+    ),
+    "a curve that goes round more than once": (
+        ("carry_pitch: 1 m", "horizontal_curve: {radius: 20 m}"),
+        "SPC113",
+        "route.sections[0].horizontal_curve.radius",
+        "radius: 20 m",
     ),
     "a transition elsewhere": (("tail: {length: 2 m}", "tial: {length: 2 m}"), "SPC104", "transitions.tial", "tial"),
     "a transition without its length": (

@@ -1,9 +1,10 @@
-"""Belt conveyor: running, starting, stopping, traction, take-up and waves of the belt."""
+"""Belt conveyor: running, curves, starting, stopping, traction, take-up and waves of the belt."""
 
 from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.machines.conveyor.assumptions import assumptions
+from ptmcalc.machines.conveyor.curves.topic import CURVES
 from ptmcalc.machines.conveyor.figures import FIGURES
 from ptmcalc.machines.conveyor.holding.topic import ROLLBACK
 from ptmcalc.machines.conveyor.inspection import inspect
@@ -16,7 +17,7 @@ from ptmcalc.machines.conveyor.takeup.topic import TAKEUP
 from ptmcalc.machines.conveyor.traction.topic import TRACTION
 from ptmcalc.machines.conveyor.waves.topic import WAVES
 
-TOPICS = (RUNNING, TRACTION, TAKEUP, ROLLBACK, STOPPING, STARTING, WAVES)
+TOPICS = (RUNNING, CURVES, TRACTION, TAKEUP, ROLLBACK, STOPPING, STARTING, WAVES)
 
 KIND = MachineKind(
     name="conveyor",

@@ -10,6 +10,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
+from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST
 from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
 from ptmcalc.machines.conveyor.loads import BRAKING_POWER, TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.model import braking_force, load_line_mass
@@ -359,6 +360,32 @@ _OF_THE_LOAD: tuple[Assumption[Conveyor], ...] = (
 )
 
 
+_EDGE_SHARE, _EDGE = 0.05, 0.025
+"""Free edge of a belt beside its load: share of the width [1] and length [m], half of B - (0.9 B - 50 mm) of ISO
+5048:1989. The wing rolls of ISO 1537 are longer than the belt on them by as much. A larger value passes narrower
+curves."""
+_EDGE_TOLERANCE = 0.2
+"""Deviation of the standard roll lengths from that edge [1]: 15 % for belts of 650 to 2000 mm, and 5 % for the gap
+between the rolls; an engineering choice. A larger value leaves more verdicts undecided."""
+
+
+def _edge(spec: Conveyor, factor: float = 1.0) -> float | None:
+    """Distance from the edge of the belt to the end of the wing roll, where a route has horizontal curves [m]."""
+    if not spec.route.bends or spec.belt.width is None:
+        return None
+    return factor * (_EDGE_SHARE * spec.belt.width + _EDGE)
+
+
+_OF_CURVES: Assumption[Conveyor] = Assumption(
+    ("checks", "belt_drift"),
+    units.LENGTH,
+    _edge,
+    lambda spec: Interval(*(filled(_edge(spec, 1 + part)) for part in (-_EDGE_TOLERANCE, _EDGE_TOLERANCE))),
+    "ISO 5048: usable width 0.9 B - 50 mm; ISO 1537: wing rolls longer than the belt on them by 0.05 B + 25 mm",
+    Use(loads=frozenset({LEAST, MOST})),
+)
+
+
 def _rubbing(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
     """Friction at skirt plates and scrapers."""
     for name, force in spec.resistance.forces.items():
@@ -382,6 +409,7 @@ def assumptions(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
     yield from _OF_STANDSTILL
     yield from _OF_THE_LOAD
     yield _OF_THE_SPLICE
+    yield _OF_CURVES
     yield from _of_the_rolls(spec)
     yield from _rubbing(spec)
     for name, drive in spec.all_drives.items():

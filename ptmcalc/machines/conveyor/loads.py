@@ -12,11 +12,13 @@ TENSIONS = (
     "tension_max",
     "tension_min",
     "tension_curve_max",
+    "tension_bend_max",
+    "tension_bend_min",
     "slack_margin_min",
 )
 """Loads that move with the tension somewhere on the belt, newton by newton."""
 
-LOWEST = ("tension_run_off_min", "tension_min", "slack_margin_min")
+LOWEST = ("tension_run_off_min", "tension_min", "tension_bend_min", "slack_margin_min")
 """Tensions at their lowest."""
 
 GRIP = ("slip_utilisation_max", "slip_reserve_min")

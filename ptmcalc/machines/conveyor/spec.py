@@ -214,6 +214,9 @@ class ConveyorChecks(CheckSettings):
     edge_overload: Annotated[FactorFromOne, Limit()] = 1.15
     """maximum fibre tension per width at a transition or in a vertical curve, relative to that of the steadily running
     belt with its safety factor"""
+    belt_drift: Annotated[PositiveLength | None, Assumed()] = None
+    """permissible drift of the belt in horizontal curves: distance from its edge to the end of the wing roll; assumed
+    0.05 B + 25 mm when left out"""
     start_acceleration: Annotated[PositiveAcceleration | None, Limit()] = None
     """maximum starting acceleration of the belt; 0.1 to 0.3 m/s^2 is usual"""
     start_margins: Literal["on", "off"] = "off"

@@ -106,6 +106,15 @@ class IdlerRoll(Fragment):
     """dynamic factor of belt and load that pass the idler; 1.2 is assumed when left out"""
 
 
+class Trough(Fragment):
+    """The trough of a strand, on three rolls or on two."""
+
+    angle: TroughAngle
+    """troughing angle of the wing rolls"""
+    middle_roll: Length
+    """length of the centre roll; 0 mm for two rolls"""
+
+
 class IdlerRow(Fragment):
     """The idlers of one strand."""
 
@@ -119,6 +128,8 @@ class IdlerRow(Fragment):
     """rotating mass per length, or give `set_mass` and `pitch`"""
     roll: IdlerRoll | None = None
     """its rolls; for roll speed, roll load and bearing life"""
+    trough: Trough | None = None
+    """shape of the idlers in a V or a trough; needed for horizontal curves, where flat idlers do not guide the belt"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -140,20 +151,11 @@ class IdlerRow(Fragment):
         return self.set_mass / pitch
 
 
-class Trough(Fragment):
-    """The trough of the carrying strand, on three rolls or on two."""
-
-    angle: TroughAngle
-    """troughing angle of the wing rolls"""
-    middle_roll: Length
-    """length of the centre roll; 0 mm for two rolls"""
-
-
 class CarryRow(IdlerRow):
     """The idlers of the carrying strand."""
 
     trough: Trough | None = None
-    """trough shape; needed for the load cross-section, transitions and edge tension in vertical curves"""
+    """trough shape; needed for the load cross-section, transitions, horizontal curves and edge tension in curves"""
 
 
 class Idlers(Fragment):

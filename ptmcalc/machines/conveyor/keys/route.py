@@ -1,5 +1,6 @@
-"""The route as a designer writes it: sections from the tail to the head, and the vertical curves between them."""
+"""The route as a designer writes it: sections from the tail to the head, vertical and horizontal curves."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
@@ -7,11 +8,25 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from ptmcalc.base import units
 from ptmcalc.base.memory import kept_for
 from ptmcalc.numerics import lanes
-from ptmcalc.spec.fields import PositiveLength, PositiveSpan, SignedSpan
+from ptmcalc.spec.fields import Measure, PositiveLength, PositiveSpan, SignedSpan
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 from ptmcalc.spec.optional import Absent, OneOf
+
+Banking = Annotated[float, Measure(units.TILT, at_least=0, at_most=math.radians(15))]
+
+
+class HorizontalCurve(Fragment):
+    """A horizontal curve: its idlers stand on an arc, and their inner side is lifted."""
+
+    radius: PositiveSpan
+    """of the arc, at the middle of the belt"""
+    banking: Annotated[Banking, Absent("idlers without banking stand level")] = 0.0
+    """angle by which the inner side of the carrying idlers is lifted; up to 8 deg is usual"""
+    banking_return: Annotated[Banking, Absent("idlers without banking stand level")] = 0.0
+    """the same of the return idlers"""
 
 
 class Section(Fragment):
@@ -27,11 +42,18 @@ class Section(Fragment):
         PositiveSpan | None, Absent("no curve is described: its lift-off and edge tension are not checked")
     ] = None
     """radius of the vertical curve between the section before and this one"""
+    horizontal_curve: HorizontalCurve | None = None
+    """horizontal curve over the whole section"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The belt cannot rise further than it is long."""
+        """The belt cannot rise further than it is long, nor turn by more than a circle."""
         yield from _too_steep(given)
+        bend, length = given.block("horizontal_curve"), given.number("length")
+        radius = bend.number("radius") if bend else None
+        if radius is not None and length is not None and length > 2 * math.pi * radius:
+            reason = f"a section of {units.show(length, units.SPAN)} goes round this curve more than once"
+            yield Conflict(("horizontal_curve", "radius"), reason, "write `radius: 1200 m`, or correct `length`")
 
     @property
     def slope(self) -> float:
@@ -69,6 +91,22 @@ class Curve:
     def tangent(self) -> float:
         """How far it reaches to either side of the break [m]."""
         return self.radius * lanes.tan(abs(self.after - self.before) / 2)
+
+
+@dataclass(frozen=True, slots=True)
+class Bend:
+    """A section in a horizontal curve: its number, counted from 1, its ends along the carrying strand from the tail
+    [m], the cosine of its slope [1]."""
+
+    number: int
+    curve: HorizontalCurve
+    start: float
+    end: float
+    cosine: float
+
+    def banking(self, strand: str) -> float:
+        """Banking of the idlers of a strand [rad]."""
+        return self.curve.banking if strand == "carry" else self.curve.banking_return
 
 
 class Route(Fragment):
@@ -118,6 +156,16 @@ class Route(Fragment):
             Curve(number, part.curve_radius, place, before.slope, part.slope)
             for number, (place, (before, part)) in enumerate(zip(places, pairwise(self.parts), strict=False), 2)
             if part.curve_radius is not None and part.slope != before.slope
+        )
+
+    @property
+    def bends(self) -> tuple[Bend, ...]:
+        """The horizontal curves."""
+        ends = list(accumulate((part.length for part in self.parts), initial=0.0))
+        return tuple(
+            Bend(number, part.horizontal_curve, ends[number - 1], ends[number], part.cosine)
+            for number, part in enumerate(self.sections or (), 1)
+            if part.horizontal_curve is not None
         )
 
     @property

@@ -8,7 +8,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.laws import vertical_curve
 from ptmcalc.machines.conveyor.keys.belt import Transition
-from ptmcalc.machines.conveyor.keys.route import Curve
+from ptmcalc.machines.conveyor.keys.route import Bend, Curve
 from ptmcalc.machines.conveyor.model import breaking_force
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs
 from ptmcalc.machines.conveyor.running.limits import given
@@ -108,8 +108,15 @@ DRUM: Check[Conveyor, Run] = Check(
 # -- fibres across the belt -----------------------------------------------------------------------------------------
 
 
-def _place_key(place: Curve | Transition, name: str) -> KeyPath:
+def _place_key(place: Curve | Transition | Bend, name: str) -> KeyPath:
+    if isinstance(place, Bend):
+        return bend_key(place, "radius")
     return curve_key(place) if isinstance(place, Curve) else ("transitions", name, "length")
+
+
+def bend_key(bend: Bend, key: str) -> KeyPath:
+    """Where a key of a horizontal curve stands in the file."""
+    return ("route", "sections", bend.number - 1, "horizontal_curve", key)
 
 
 def curve_key(curve: Curve) -> KeyPath:
@@ -145,8 +152,9 @@ def _least_limit(spec: Conveyor, scene: Run) -> Estimate:
     return Estimate.exact(0.0)
 
 
-def _places(spec: Conveyor) -> dict[str, Curve | Transition]:
-    """Transitions and crests, which nothing else checks, and hollows of a belt whose trough is given."""
+def _places(spec: Conveyor) -> dict[str, Curve | Transition | Bend]:
+    """Transitions, horizontal curves and crests, which nothing else checks, and hollows of a belt whose trough is
+    given."""
     troughed = spec.idlers.carry.trough is not None
     return {
         name: place
@@ -170,13 +178,14 @@ def _least_checks(spec: Conveyor, scene: Run) -> Checks:
 
 _FIBRES = (
     "k = S/W + (EA/W) eps,   eps = z/R in a vertical curve, z the height of edge or middle over the mean of the\n"
-    "trough; eps of a transition from the path of each fibre from the pulley to the trough"
+    "trough; z = +-(l + 2 e cos(lambda))/2 in a horizontal curve, half the width of the trough; eps of a transition\n"
+    "from the path of each fibre from the pulley to the trough"
 )
 
 FIBRE: Check[Conveyor, Run] = Check(
     code="CNV114",
     title="maximum belt fibre tension",
-    question="Is the tension of edge and centre within its limit in transitions and vertical curves?",
+    question="Is the tension of edge and centre within its limit in transitions and curves?",
     failure="belt edge or centre is overstressed",
     scenes=frozenset({Run}),
     loads=("fibre_tension_max",),
@@ -186,17 +195,17 @@ FIBRE: Check[Conveyor, Run] = Check(
     blame=lambda spec, scene, loads: ("transitions",),
     repair=no_repair,
     each=_fibre_checks,
-    what="The maximum fibre tension per width is at most the limit in every transition, convex curve and concave"
-    " curve. The criterion applies to every partial loading of the belt.",
+    what="The maximum fibre tension per width is at most the limit in every transition, convex curve, concave curve and"
+    " horizontal curve. The criterion applies to every partial loading of the belt.",
     why="Edges stretched beyond their strength crack, and the belt then runs off permanently.",
     formula=_FIBRES,
-    source="DIN 22101 and CEMA: transition lengths and radii of vertical curves; derived from lengths of fibres",
+    source="DIN 22101 and CEMA: transition lengths and radii of curves; derived from lengths of fibres",
 )
 
 PRESSED: Check[Conveyor, Run] = Check(
     code="CNV115",
     title="minimum belt fibre tension",
-    question="Do edge and centre stay in tension in transitions and vertical curves?",
+    question="Do edge and centre stay in tension in transitions and curves?",
     failure="belt edge or centre buckles",
     scenes=frozenset({Run}),
     loads=("fibre_tension_min",),
@@ -206,12 +215,12 @@ PRESSED: Check[Conveyor, Run] = Check(
     blame=lambda spec, scene, loads: ("transitions",),
     repair=no_repair,
     each=_least_checks,
-    what="Every fibre of the belt stays in tension in every transition, convex curve and concave curve. The criterion"
-    " applies to every partial loading of the belt.",
+    what="Every fibre of the belt stays in tension in every transition, convex curve, concave curve and horizontal"
+    " curve. The criterion applies to every partial loading of the belt.",
     why="A fibre under compression folds. The centre buckles in a convex curve, the edges flutter in a concave curve,"
-    " and load spills.",
+    " and load spills. The inner edge flutters in a horizontal curve.",
     formula=_FIBRES + "; k >= 0",
-    source="DIN 22101 and CEMA: transition lengths and radii of vertical curves; derived from lengths of fibres",
+    source="DIN 22101 and CEMA: transition lengths and radii of curves; derived from lengths of fibres",
 )
 
 # -- hollows --------------------------------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ def life_strands(spec: Conveyor) -> list[str]:
 
 def rolls_of_a_set(spec: Conveyor, strand: str) -> int:
     """Rolls of an idler set by its trough: three, or two without a centre roll; one of a flat strand."""
-    trough = spec.idlers.carry.trough if strand == "carry" else None
+    trough = (spec.idlers.carry if strand == "carry" else spec.idlers.back).trough
     if trough is None:
         return 1
     return 3 if trough.middle_roll > 0 else 2

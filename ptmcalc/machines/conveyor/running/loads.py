@@ -8,11 +8,11 @@ import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo, family, of
-from ptmcalc.laws import belt_section, sag, vertical_curve
+from ptmcalc.laws import belt_section, horizontal_curve, sag, vertical_curve
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.keys.belt import Transition
-from ptmcalc.machines.conveyor.keys.route import Curve
+from ptmcalc.machines.conveyor.keys.route import Bend, Curve
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.running.idlers import ROLL_LOADS, life_strands, roll_loads, rolls
@@ -147,12 +147,14 @@ def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
 
 @dataclass(frozen=True, slots=True)
 class Fillings:
-    """The carry strand over all choices of loaded sections: the empty belt, what the load of each section adds to the
-    tension at its downstream end and at all places [N], marks between the sections [m]."""
+    """The belt over all choices of loaded sections: the empty belt, what the load of each section adds to the tension
+    of the carry strand at its downstream end and at all places [N], to that of the return strand [N], marks between the
+    sections [m]."""
 
     empty: BeltLine
     pulls: FloatArray
     everywhere: FloatArray
+    back: FloatArray
     marks: FloatArray
 
     def at(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -166,6 +168,25 @@ class Fillings:
         gains = passed * self.pulls + self.everywhere
         base = self.empty.static(CARRY, places / self.empty.carry.length)
         return base + np.minimum(gains, 0).sum(axis=1), base + np.maximum(gains, 0).sum(axis=1)
+
+    def within(self, section: int, loaded: bool) -> tuple[float, float]:
+        """Least and most tension in a section, counted from 0, that is itself loaded or empty [N].
+
+        In a section the tension is linear between its ends, whatever else is loaded.
+        """
+        places = self.marks[section : section + 2]
+        passed = np.clip((places[:, None] - self.marks[:-1]) / np.diff(self.marks), 0, 1)
+        gains = passed * self.pulls + self.everywhere
+        own, others = gains[:, section], np.delete(gains, section, axis=1)
+        base = self.empty.static(CARRY, places / self.empty.carry.length) + (own if loaded else 0.0)
+        least, most = base + np.minimum(others, 0).sum(axis=1), base + np.maximum(others, 0).sum(axis=1)
+        return number(least.min()), number(most.max())
+
+    def on_return(self, section: int) -> tuple[float, float]:
+        """Least and most tension of the return strand below a section, counted from 0 [N]."""
+        places = self.empty.back.length - self.marks[section : section + 2]
+        base = self.empty.static(RETURN, places / self.empty.back.length)
+        return number(base.min() + np.minimum(self.back, 0).sum()), number(base.max() + np.maximum(self.back, 0).sum())
 
 
 def fillings(spec: Conveyor, scene: Run) -> Fillings:
@@ -183,13 +204,14 @@ def fillings(spec: Conveyor, scene: Run) -> Fillings:
         more = full.tail_pull - empty.tail_pull
         pulled = full.static_resistance - empty.static_resistance + more
         everywhere = everywhere - (more / pulled if pulled else 0.0) * (pulls + everywhere)
+    step = everywhere
     if full.weight_at_tail:  # half of what the load adds at the tail pulley lowers the tension before it
         everywhere = everywhere / 2
     marks, whole = np.array(full.carry.marks), full.carry.length
     if full.fixed_length:
         rest = np.diff(marks) / 2 + whole - marks[1:]
         everywhere = everywhere - (pulls * rest + everywhere * whole) / (whole + full.back.length)
-    return Fillings(empty, pulls, everywhere, marks)
+    return Fillings(empty, pulls, everywhere, everywhere - step, marks)
 
 
 def _places(spec: Conveyor, place: Curve | Transition, name: str) -> FloatArray:
@@ -212,33 +234,61 @@ def _curves(spec: Conveyor, loads: Fillings) -> dict[str, float]:
 # -- fibres across the belt -----------------------------------------------------------------------------------------
 
 
-def bent(spec: Conveyor) -> dict[str, Curve | Transition]:
+def bent(spec: Conveyor) -> dict[str, Curve | Transition | Bend]:
     """Places where fibres of the belt differ in length, by the name of their loads."""
-    places: dict[str, Curve | Transition] = {
+    places: dict[str, Curve | Transition | Bend] = {
         at: place for at in ("head", "tail") if (place := getattr(spec.transitions, at)) is not None
     }
-    return places | {f"curve_{curve.number}": curve for curve in spec.route.curves}
+    places |= {f"curve_{curve.number}": curve for curve in spec.route.curves}
+    strands = ("carry", "return")
+    return places | {f"bend_{bend.number}_{strand}": bend for bend in spec.route.bends for strand in strands}
 
 
 def _fibres(spec: Conveyor, loads: Fillings) -> dict[str, float]:
     """Largest and smallest tension per width of any fibre, whatever is loaded.
 
     k = S/W + (EA/W) eps,   eps of `belt_section.transition_strains`, z/R in a curve
+
+    A return strand without a trough is flat.
     """
     found: dict[str, float] = {}
     width, stiffness = spec.belt.width, loads.empty.stiffness
     if spec.idlers.carry.trough is None or width is None:
         return {}
     for name, place in bent(spec).items():
-        least, most = loads.at(_places(spec, place, name))
-        more, less = strains(spec, place)
-        found[of("fibre_tension_max", name)] = number(most.max() + stiffness * more) / width
-        found[of("fibre_tension_min", name)] = number(least.min() - stiffness * less) / width
+        if isinstance(place, Bend):
+            low, high = _in_bend(loads, place, name)
+        else:
+            least, most = loads.at(_places(spec, place, name))
+            low, high = least.min(), most.max()
+        more, less = strains(spec, place, name)
+        found[of("fibre_tension_max", name)] = number(high + stiffness * more) / width
+        found[of("fibre_tension_min", name)] = number(low - stiffness * less) / width
     return found
 
 
-def strains(spec: Conveyor, place: Curve | Transition) -> tuple[float, float]:
+def _in_bend(loads: Fillings, bend: Bend, name: str) -> tuple[float, float]:
+    """Least and most tension of a strand in a horizontal curve, whatever is loaded [N]."""
+    section = bend.number - 1
+    if name.endswith("return"):
+        return loads.on_return(section)
+    ends = [loads.within(section, loaded) for loaded in (False, True)]
+    return min(low for low, _ in ends), max(high for _, high in ends)
+
+
+def _edge_strain(spec: Conveyor, bend: Bend, name: str) -> float:
+    """Strain of the outer edge of a strand in a horizontal curve over the mean; that of the inner edge below it."""
+    row = spec.idlers.back if name.endswith("return") else spec.idlers.carry
+    width, trough = filled(spec.belt.width), row.trough
+    middle, angle = (width, 0.0) if trough is None else (min(trough.middle_roll, width), trough.angle)
+    return value(horizontal_curve.edge_strain, middle, (width - middle) / 2, angle, bend.curve.radius)
+
+
+def strains(spec: Conveyor, place: Curve | Transition | Bend, name: str) -> tuple[float, float]:
     """How far the tightest fibre is above the mean strain, and the slackest below it."""
+    if isinstance(place, Bend):
+        edge = _edge_strain(spec, place, name)
+        return edge, edge
     trough, width = spec.idlers.carry.trough, filled(spec.belt.width)
     assert trough is not None
     middle = min(trough.middle_roll, width)

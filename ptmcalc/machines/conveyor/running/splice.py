@@ -84,7 +84,7 @@ def _edge_additions(spec: Conveyor) -> dict[str, float]:
     """Edge addition of every transition and curve by name, as a tension of the whole belt [N]."""
     if spec.idlers.carry.trough is None or spec.belt.width is None:
         return {}
-    return {name: belt_stiffness(spec) * strains(spec, place)[0] for name, place in bent(spec).items()}
+    return {name: belt_stiffness(spec) * strains(spec, place, name)[0] for name, place in bent(spec).items()}
 
 
 def _needs(spec: Conveyor) -> tuple[KeyPath, ...]:
@@ -117,7 +117,7 @@ SPLICE: Check[Conveyor, ConveyorScene] = Check(
     each=_checks,
     what="The rated strength of the belt, times the relative reference fatigue strength of the splice, is at least the"
     " largest tension per width times S_0 and S_1. The tension per width includes the edge addition in transitions and"
-    " vertical curves. CNV102 verifies the safety factors of DIN 22101:1982.",
+    " curves. CNV102 verifies the safety factors of DIN 22101:1982.",
     why="The splice is the weakest part of a belt. Its fatigue limits the permissible tension.",
     formula="k_N k_t,rel/(k_max S_0 S_1) >= 1,   k_max = max(S/W + (EA/W) eps)\n"
     "S_0 = 1.0 good, 1.1 normal, 1.2 poor splicing conditions;   S_1 = 1.5 short, 1.7 normal, 1.9 long life",

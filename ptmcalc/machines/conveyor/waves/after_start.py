@@ -12,6 +12,7 @@ from ptmcalc.contract.result import Found, family, of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
+from ptmcalc.machines.conveyor.curves.loads import bend_names
 from ptmcalc.machines.conveyor.load_sharing import pull_together, shares_at
 from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS, TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, grips, starting_force
@@ -150,7 +151,18 @@ class _After:
         for curve in self.spec.route.hollows:
             touched = np.abs(_X * line.carry.length - curve.place) <= curve.tangent + line.carry.length / len(_X)
             worst[of("tension_curve_max", str(curve.number))] = float(self.most[CARRY, touched].max())
-        return worst | dict(self._of_drives())
+        return worst | dict(self._of_bends()) | dict(self._of_drives())
+
+    def _of_bends(self) -> Iterator[tuple[str, float]]:
+        """Tensions of horizontal curves."""
+        for low, high, strand, bend in bend_names(self.spec):
+            which = CARRY if strand == "carry" else RETURN
+            whole = self.line.strand(which).length
+            ends = (bend.start, bend.end) if strand == "carry" else (whole - bend.end, whole - bend.start)
+            near = whole / (len(_X) - 1)  # one point beside each end at least
+            touched = (whole * _X >= ends[0] - near) & (whole * _X <= ends[1] + near)
+            yield low, float(self.least[which, touched].min())
+            yield high, float(self.most[which, touched].max())
 
     def _of_drives(self) -> Iterator[tuple[str, float]]:
         """Tensions and grip of every drive; drives at one place share what the belt takes as in steady running."""

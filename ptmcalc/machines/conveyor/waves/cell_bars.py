@@ -41,7 +41,7 @@ from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.stopping.brake_heat import moved_heat
 from ptmcalc.machines.conveyor.waves import load_errors
-from ptmcalc.machines.conveyor.waves.cell_loads import LOW_CARRY, LOW_RETURN, OneGrid, Values
+from ptmcalc.machines.conveyor.waves.cell_loads import LOW_CARRY, LOW_PLACES, LOW_RETURN, OneGrid, Values
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn
 
@@ -65,6 +65,15 @@ _ROUNDING = 1e-11
 2e-16 of the floating point times the number of additions. A larger value widens bars that are otherwise 0."""
 _MOVES = frozenset({*TENSIONS, "tension_run_off_min", "starting_force_needed", BRAKING_FORCE})
 """Families of forces whose traces tell what is still to come of them."""
+
+
+_TRACES = {
+    "tension_dynamic_run_on_max": "tension_run_on_max",
+    "tension_curve_max": "tension_max",
+    "tension_bend_max": "tension_max",
+    "tension_bend_min": LOW_PLACES,
+}
+"""Traces of loads that have none of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,8 +158,7 @@ def _either(bar: float) -> Interval:
 def _still_to_come(grids: Grids, name: str) -> float:
     """What all finer grids together may change of a load."""
     extremes = [one.values[name][0] if name in one.values else math.inf for one in grids]
-    trace = {"tension_dynamic_run_on_max": "tension_run_on_max", "tension_curve_max": "tension_max"}
-    return _to_come(grids, trace.get(family(name), name), extremes)
+    return _to_come(grids, _TRACES.get(family(name), name), extremes)
 
 
 def _of_trace(grids: Grids, name: str) -> float:

@@ -4,12 +4,14 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ptmcalc.contract.result import of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking_at_shaft
+from ptmcalc.machines.conveyor.curves.loads import bend_names
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.loads import (
     BELT_SPEED,
@@ -39,6 +41,8 @@ Values = dict[str, tuple[float, dict[str, float]]]
 """Loads of one grid: the value, and where and when."""
 LOW_RETURN, LOW_CARRY = "tension_min[return]", "tension_min[carry]"
 """Traces that are no loads themselves: the lowest tension of each strand."""
+LOW_PLACES = "tension_min[places]"
+"""Another one: the lowest tension over the way round the loop."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +134,9 @@ def _of_belt(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
     values["tension_min"] = lowest[0], {"time": lowest[1], "position": lowest[2]}
     for curve in case.spec.route.hollows:
         values[of("tension_curve_max", str(curve.number))] = _in_curve(line, drawn, ready, curve), {}
+    for least, most, strand, bend in bend_names(case.spec, case.scene):
+        cells = _cells_between(line, ready, strand, bend.start, bend.end)
+        values[least], values[most] = (float(drawn.lowest[cells].min()), {}), (float(drawn.highest[cells].max()), {})
     for name, value in tension_loads.derived_loads(line, high[0], tuple(one[0] for one in lows)).items():
         values[name] = value, {}
     traces = found.traces
@@ -139,6 +146,7 @@ def _of_belt(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
         "slack_margin_min": Trace((drawn.lows - tension_loads.slack_limits(line)).min(axis=1), step, -1),
         LOW_RETURN: Trace(drawn.lows[:, RETURN], step, -1),
         LOW_CARRY: Trace(drawn.lows[:, CARRY], step, -1),
+        LOW_PLACES: Trace(drawn.lowest, 1 / len(drawn.lowest), -1),
     }
 
 
@@ -186,6 +194,15 @@ def speeds_of(case: Moving, drawn: Drawn, ready: Set) -> dict[str, FloatArray]:
             if drum.name in drives:
                 found[of(MOTOR_SPEED, drum.name)] = speeds * turns(drives[drum.name])
     return found
+
+
+def _cells_between(line: BeltLine, ready: Set, strand: str, start: float, end: float) -> NDArray[np.bool_]:
+    """The cells of a strand that a part of the route touches, which is given from the tail [m]."""
+    places, tail = ready.course.places, ready.course.tail
+    at = places - line.back.length if strand == "carry" else line.back.length - places
+    touched = (np.minimum(at[:-1], at[1:]) < end) & (np.maximum(at[:-1], at[1:]) > start)
+    touched[slice(0, tail) if strand == "carry" else slice(tail, None)] = False
+    return np.asarray(touched)
 
 
 def _run_back(found: OneGrid, case: Moving, drawn: Drawn, step: float) -> None:

@@ -26,6 +26,7 @@ _FALLING = frozenset(
     {
         "tension_run_off_min",
         "tension_min",
+        "tension_bend_min",
         "slack_margin_min",
         "slip_reserve_min",
         "belt_safety_min",

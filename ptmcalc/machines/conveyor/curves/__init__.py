@@ -1,0 +1,1 @@
+"""Horizontal curves: the tension of the belt in them, and its drift on the idlers."""
