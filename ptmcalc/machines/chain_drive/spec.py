@@ -78,6 +78,32 @@ class Backstop(Fragment):
     """rated torque / rollback torque; 1.25 to 1.75 in practice"""
 
 
+class TorqueLimiter(Fragment):
+    """Torque limiter between the gear and the driving sprocket."""
+
+    torque: PositiveTorque
+    """setting: torque on the sprocket shaft at which it slips or breaks"""
+    tolerance: Annotated[
+        PositiveShare,
+        Assumed(0.1, 0.05, 0.2, "manufacturers set torque limiters within 10 %; 5 % at best, 20 % after wear"),
+    ] = 0.1
+    """deviation of the actual trip torque from the setting, to either side; 10 % is assumed, 5 % to 20 %"""
+    type: Literal["slip_clutch", "shear_pin"] = "slip_clutch"
+    """`slip_clutch` slips and keeps its torque, `shear_pin` breaks and disconnects the drive"""
+    reserve: Annotated[FactorFromOne, Limit()] = 1.25
+    """setting / torque of steady running; 1.25, or 1.5 with severe shocks, by manufacturers"""
+
+    @property
+    def least(self) -> float:
+        """Lowest trip torque [N*m]."""
+        return self.torque * (1 - self.tolerance)
+
+    @property
+    def most(self) -> float:
+        """Highest trip torque [N*m]."""
+        return self.torque * (1 + self.tolerance)
+
+
 class Equalising(Fragment):
     """A drive that varies the sprocket speed to keep the chain speed constant."""
 
@@ -134,6 +160,8 @@ class ChainChecks(CheckSettings):
     """breaking load / maximum tension of steady running; 7 for conveyors, 5 for drives when left out"""
     safety_start: Annotated[PositiveRatio, Limit()] = 5.0
     """breaking load / maximum tension of a start or stop"""
+    safety_jam: Annotated[PositiveRatio, Limit()] = 3.3
+    """breaking load / maximum tension when a jam trips the torque limiter; chains are preloaded with 30 % of it"""
     joint_pressure: Annotated[PositivePressure | None, Limit()] = None
     """maximum pin/bush bearing pressure; 20 to 30 MPa is usual"""
     wrap: Annotated[PositiveAngle, Limit()] = 2.0943951023931953
@@ -262,6 +290,8 @@ class ChainDrive(MachineSpec):
     """the brake"""
     backstop: Annotated[Backstop | None, Also("holdback")] = None
     """backstop (holdback) of an inclined conveyor"""
+    torque_limiter: Annotated[TorqueLimiter | None, Also("slip_clutch", "shear_pin")] = None
+    """torque limiter on the shaft of the driving sprocket: slip clutch or shear pin"""
     wear: Wear | None = None
     """wear of the link joints; needed for the life"""
     checks: ChainChecks = ChainChecks()
