@@ -64,7 +64,10 @@ def _through(
     through = Through(rotor, (-rotor if behind else 1 - rotor) * masses.total_mass)
     modes = modes_through(spec, scene, swing, felt(spec, scene, swing, _MODES << (2 * level)), through)
     peaks = mode_sum(modes, swing.course, swing.window)
-    return extremes(peaks, swing.acceleration, 0.0 if behind else case.line.static_resistance, 0.0)
+    still = case.line.static_resistance
+    most, least = extremes(peaks, swing.acceleration, 0.0 if behind else still, 0.0)
+    before = Estimate.exact(still)  # the chain runs until the motors are switched off
+    return larger(most, before), negative(larger(negative(least), negative(before)))
 
 
 def _may_go_slack(spec: ChainDrive, scene: Stopping, case: StopCase) -> bool:
