@@ -261,17 +261,19 @@ def stop(rig: Rig, brake: Mapping[str, Any]) -> float:
     return max(float(np.abs(motors - rotor * found.acceleration).max()), still)
 
 
-def toothed_start(rig: Rig, lead: float, pieces: int = 16) -> float:
-    """Largest force through the limiter in a start by a step with every tooth that passes, by DOP853."""
+def toothed_start(rig: Rig, lead: float, pieces: int = 16) -> tuple[float, float]:
+    """Largest force through the limiter in a start by a step with every tooth that passes, and the largest torque at
+    the arms of the teeth, of a gravity take-up, by DOP853."""
     grown = rig.data["layout"]["resistance"]["start_factor"]
     still, rotor = rig.resistance(grown), rig.rotor(rig.eta)
     drive = rotor + rig.sprocket
-    m, k, _ = rig.elements(pieces, drive)
-    n, eta, excess = len(m), rig.retardation, rig.pull - still
+    m, k, ends = rig.elements(pieces, drive)
+    n, eta, excess, leaving = len(m), rig.retardation, rig.pull - still, rig.leaving(grown)
     a, half = excess / (drive + rig.moving), math.pi / rig.teeth
     at_speed, gained = rig.speed / a, rig.speed**2 / a / 2
     transit = sum(rig.length * math.sqrt(line / rig.stiffness) for line in (rig.chain, rig.chain + rig.load))
-    window, state, now, tooth, most = at_speed + 3 * transit, np.zeros(2 * n), 0.0, 0, still
+    window, state, now, tooth = at_speed + 3 * transit, np.zeros(2 * n), 0.0, 0
+    most, torque = still, still * rig.arm
     while now < window - 1e-12:
         way = (tooth + 1 - lead) * rig.pitch
         speeds_up = now < at_speed - 1e-12
@@ -297,10 +299,16 @@ def toothed_start(rig: Rig, lead: float, pieces: int = 16) -> float:
         run = solve_ivp(motion, (now, end), state, "DOP853", looks, rtol=1e-7, atol=1e-11)
         motors = still + (excess if speeds_up else 0.0)
         for t, y in zip(looks, run.y.T, strict=True):
-            sprocket = force(t, y)[0] / m[0] - polygon(t) if m[0] else 0.0
+            sprocket = force(t, y)[0] / m[0] - polygon(t)
             most = max(most, abs(motors - rotor * sprocket))
+            gone = a * t * t / 2 if speeds_up else gained + rig.speed * (t - at_speed)
+            place = 2 * half * (gone / rig.pitch + lead - tooth - 0.5)
+            other = 2 * half * ((gone / rig.pitch + lead + rig.teeth / 2) % 1.0 - 0.5)
+            entering = leaving + still + float(ends[0] @ (y[:n] + eta * y[n:]))
+            arms = rig.radius * math.cos(place) * entering - rig.radius * math.cos(other) * leaving
+            torque = max(torque, abs(arms + rig.sprocket * sprocket * rig.arm))
         state, now, tooth = run.y[:, -1], end, tooth + (end == engages)
-    return most
+    return most, torque
 
 
 def running(rig: Rig) -> tuple[float, float]:

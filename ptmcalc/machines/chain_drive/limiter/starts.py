@@ -33,6 +33,7 @@ _MODES = 24
 """Modes at the coarsest level; four times as many at each finer one. A numerical choice: the rest is bounded and added.
 More narrow the error bar and take longer."""
 _LEVELS = 3
+"""Refinements of both solvers; a numerical choice. More narrow the error bar and take longer."""
 
 
 @kept_for(64)
