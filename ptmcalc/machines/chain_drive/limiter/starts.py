@@ -32,8 +32,9 @@ from ptmcalc.numerics.mode_sum import mode_sum
 _MODES = 24
 """Modes at the coarsest level; four times as many at each finer one. A numerical choice: the rest is bounded and added.
 More narrow the error bar and take longer."""
-_LEVELS = 3
-"""Refinements of both solvers; a numerical choice. More narrow the error bar and take longer."""
+_LEVELS = 2
+"""Refinements of both solvers; a numerical choice. The arms of the teeth make up most of a refined error bar, which
+more refinements do not narrow."""
 
 
 @kept_for(64)
@@ -145,17 +146,12 @@ def _of_sprocket(case: StartCase, own: float) -> tuple[float, Interval]:
 
 
 def best_torque(spec: ChainDrive, scene: Start, decided: Callable[[Estimate], bool]) -> Estimate:
-    """The torque as close as it takes to decide something, by modes, then with every tooth [N*m]."""
+    """The torque as close as it takes to decide something: by modes, then with every tooth [N*m]."""
     best = start_torque(spec, scene, 0)[0]
-    toothed = START_TEETH.usable_for(spec, scene)
-    for level in range(_LEVELS):
-        for made, usable in ((start_torque, True), (toothed_torque, toothed)):
-            if decided(best) or (not best.bounded and not toothed):
-                return best
-            if usable:
-                one = made(spec, scene, level)[0]
-                best = one if not best.bounded or one.high - one.low < best.high - best.low else best
-    return best
+    if decided(best) or toothed(spec, scene).exceeded:
+        return best
+    one = toothed_torque(spec, scene, 0)[0]
+    return one if not best.bounded or one.high - one.low < best.high - best.low else best
 
 
 def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
