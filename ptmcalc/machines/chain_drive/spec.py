@@ -348,7 +348,7 @@ class ChainDrive(MachineSpec):
     """the brake"""
     backstop: Annotated[Backstop | None, Also("holdback")] = None
     """backstop (holdback) of an inclined conveyor"""
-    torque_limiter: Annotated[TorqueLimiter | None, Also("slip_clutch", "shear_pin")] = None
+    torque_limiter: TorqueLimiter | None = None
     """torque limiter on the shaft of the driving sprocket: slip clutch or shear pin"""
     wear: Wear | None = None
     """wear of the link joints; needed for the life"""
