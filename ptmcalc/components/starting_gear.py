@@ -1,7 +1,7 @@
 """What is between the mains and the gear when a motor starts: star-delta starter, soft starter, fluid coupling."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Annotated, Literal
 
@@ -10,7 +10,7 @@ from pydantic import Field
 from ptmcalc.components.motor import AnyMotor, InductionBase, RatedSlip, TableMotor, TorquePoint
 from ptmcalc.numerics.belt.curve import CurveStage
 from ptmcalc.spec.fields import Fraction, PositiveEnergy, PositiveRatio, PositiveTime
-from ptmcalc.spec.fragment import Fragment
+from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.optional import Assumed, Limit
 
 STAR = 1 / 3
@@ -42,7 +42,7 @@ class SoftStarter(Fragment):
 AnyStarter = Annotated[StarDelta | SoftStarter, Field(discriminator="type")]
 
 
-class FluidCoupling(Fragment):
+class UnratedCoupling(Fragment):
     """A fluid coupling with constant filling, or filled with delay, between the motor and the gear."""
 
     torque_limit: Annotated[
@@ -58,8 +58,6 @@ class FluidCoupling(Fragment):
         PositiveTime, Assumed(8.0, 3.0, 20.0, "couplings with a delay chamber or a controlled filling: 3 to 20 s")
     ] = 8.0
     """in which the torque rises to 95 % of its limit while the coupling fills; 8 s is assumed, 3 s to 20 s"""
-    start_heat: Annotated[PositiveEnergy | None, Limit()] = None
-    """permissible heat of the coupling per start, from its data sheet; needed to check the start"""
 
     @property
     def time_constant(self) -> float:
@@ -89,6 +87,27 @@ class FluidCoupling(Fragment):
         knots = (top - width, most), (top + width, -most)
         points = tuple(TorquePoint.model_construct(speed=speed, torque=torque) for speed, torque in knots)
         return TableMotor.model_construct(type="table", points=points, rated_torque=rated, largest_torque=None)
+
+
+class FluidCoupling(UnratedCoupling):
+    """A fluid coupling with constant filling, or filled with delay, between the motor and the gear."""
+
+    start_heat: Annotated[PositiveEnergy | None, Limit()] = None
+    """permissible heat of the coupling per start, from its data sheet; needed to check the start"""
+
+
+def gear_without_curve(given: Given) -> Iterator[Conflict]:
+    """Starter and fluid coupling of a drive whose motor is no cage motor."""
+    motor = given.raw.get("motor")
+    if not isinstance(motor, dict) or "power" in motor:
+        return
+    curve = motor.get("curve")
+    if isinstance(curve, dict) and curve.get("type") == "induction":
+        return
+    for key in ("starter", "fluid_coupling"):
+        if key in given:
+            reason = "it requires the curve of a cage motor"
+            yield Conflict((key,), reason, "add `power: 90 kW` and `poles: 4` to `motor`")
 
 
 def in_star(stages: Sequence[CurveStage], switch_over: float) -> tuple[CurveStage, ...]:

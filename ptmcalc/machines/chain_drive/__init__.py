@@ -11,6 +11,7 @@ from ptmcalc.laws import chain_selection
 from ptmcalc.machines.chain_drive.assumptions import assumptions
 from ptmcalc.machines.chain_drive.figures import FIGURES
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.limiter.topic import LIMITER
 from ptmcalc.machines.chain_drive.model import mean_arm
 from ptmcalc.machines.chain_drive.polygon.topic import POLYGON
 from ptmcalc.machines.chain_drive.relations import RELATIONS
@@ -88,7 +89,7 @@ def _of_two_shafts(spec: ChainDrive, layout: TwoShafts) -> Iterator[Finding]:
         )
 
 
-TOPICS = (RUNNING, SELECTION, POLYGON, SPANS, STARTING, SPEED_CHANGE, STOPPING)
+TOPICS = (RUNNING, SELECTION, POLYGON, SPANS, STARTING, SPEED_CHANGE, STOPPING, LIMITER)
 
 KIND = MachineKind(
     name="chain_drive",

@@ -106,6 +106,16 @@ def motor_side_inertia(spec: ChainDrive) -> float:
     return spec.drive.motor.count * (filled(spec.drive.motor.inertia) + filled(spec.drive.coupling_inertia))
 
 
+def gear_side_inertia(spec: ChainDrive) -> float:
+    """What a rigid shaft connects with the gear [kg*m^2]: no rotors in front of fluid couplings.
+
+    Of a coupling, `coupling_inertia` is that of the turbine wheel and the brake disc.
+    """
+    if spec.drive is not None and spec.drive.fluid_coupling is not None:
+        return spec.drive.motor.count * filled(spec.drive.coupling_inertia)
+    return motor_side_inertia(spec)
+
+
 def drive_mass(spec: ChainDrive, flow: str) -> float:
     """Motors, couplings and driving sprocket as a mass that moves with the chain, `flow` as in `laws.inertia` [kg].
 
@@ -114,7 +124,7 @@ def drive_mass(spec: ChainDrive, flow: str) -> float:
     if spec.drive is None:
         return math.inf
     gear = spec.drive.gear
-    slow = inertia.inertia_on_slow_shaft(motor_side_inertia(spec), gear.ratio, filled(gear.efficiency), flow)
+    slow = inertia.inertia_on_slow_shaft(gear_side_inertia(spec), gear.ratio, filled(gear.efficiency), flow)
     return (slow + sprocket_inertia(spec)) / mean_arm(spec) ** 2
 
 
@@ -122,8 +132,8 @@ def starting_force(spec: ChainDrive) -> float:
     """Mean starting force of all motors at the chain [N]; 0 without a drive."""
     if spec.drive is None:
         return 0.0
-    one, gear = spec.drive.motor, spec.drive.gear
-    return motor.rim_force(one.count * one.mean_torque, gear.ratio, filled(gear.efficiency), mean_arm(spec))
+    count, gear = spec.drive.motor.count, spec.drive.gear
+    return motor.rim_force(count * spec.drive.mean_torque, gear.ratio, filled(gear.efficiency), mean_arm(spec))
 
 
 # -- strands --------------------------------------------------------------------------------------------------------

@@ -3,14 +3,17 @@
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field
 
 from ptmcalc.base import units
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.drive import Gear
+from ptmcalc.components.motor import AnyMotor, FloatArray
 from ptmcalc.components.plate_motor import PlateMotor, gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
+from ptmcalc.components.starting_gear import STAR, AnyStarter, StarDelta, UnratedCoupling, gear_without_curve
 from ptmcalc.laws import chain_selection, sprocket
 from ptmcalc.machines.chain_drive.chain_data import (
     ChainData,
@@ -44,6 +47,9 @@ from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 from ptmcalc.spec.shape import Also
 
+_MEAN_OF = 401
+"""Speeds of a mean starting torque; a numerical choice. More reduce its error and take longer."""
+
 
 class Drive(Fragment):
     """Motors and gear on the shaft of the driving sprocket."""
@@ -54,6 +60,58 @@ class Drive(Fragment):
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
     gear: Gear
     """the gear; `{ratio: 1, efficiency: 1}` without one"""
+    starter: AnyStarter | None = None
+    """starter of a cage motor: `star_delta` or `soft`; switched on directly when left out"""
+    fluid_coupling: UnratedCoupling | None = None
+    """fluid coupling between each motor and the gear"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Starter and fluid coupling belong to a cage motor whose curve the start follows."""
+        yield from super().conflicts(given)
+        yield from gear_without_curve(given)
+        motor = given.raw.get("motor")
+        motor = motor if isinstance(motor, dict) else {}
+        mean = next((key for key in motor if "starting_torque" in key), None)
+        for key in ("starter", "fluid_coupling"):
+            if key in given and mean is not None and "power" in motor and "curve" not in motor:
+                yield Conflict((key,), f"a start by `{mean}` does not follow it", f"delete `{mean}`")
+
+    @property
+    def running_curve(self) -> AnyMotor | None:
+        """Torque on the input shaft of the gear in steady running, of one motor: that of the coupling, if there is
+        one."""
+        curve = self.motor.running_curve
+        return curve if curve is None or self.fluid_coupling is None else self.fluid_coupling.behind(curve)
+
+    @property
+    def start_curve(self) -> AnyMotor | None:
+        """The same in starts that follow a curve, in delta connection and at full voltage."""
+        return self.running_curve if self.motor.starts_on_curve else None
+
+    @property
+    def mean_torque(self) -> float:
+        """Mean starting torque of one motor, on the input shaft of the gear [N*m]: of its curve with its starter."""
+        curve = self.start_curve
+        if curve is None or (self.starter is None and self.fluid_coupling is None):
+            return self.motor.mean_torque
+        speeds = np.linspace(0.0, self.motor.speed or curve.no_load_speed or 1.0, _MEAN_OF)
+        return float(np.mean(self.torques(speeds)))
+
+    def torques(self, speeds: FloatArray) -> FloatArray:
+        """Torque of one motor on its curve at speeds of its shaft [rad/s], once a rise over time is over [N*m]."""
+        curve = self.start_curve
+        assert curve is not None
+        torques = curve.torque(speeds, np.inf)
+        return np.where(speeds < self.switch_over, STAR, 1.0) * torques
+
+    @property
+    def switch_over(self) -> float:
+        """Speed at which a star-delta starter switches to delta [rad/s]; 0 without one."""
+        motor = self.motor.running_curve
+        if not isinstance(self.starter, StarDelta) or motor is None or self.fluid_coupling is not None:
+            return 0.0
+        return self.starter.switch_over * (motor.no_load_speed or 0.0)
 
 
 class Brake(Fragment):
@@ -76,6 +134,32 @@ class Backstop(Fragment):
     """rated torque, on the sprocket shaft"""
     reserve: Annotated[FactorFromOne, Limit()] = USUAL_RESERVE
     """rated torque / rollback torque; 1.25 to 1.75 in practice"""
+
+
+class TorqueLimiter(Fragment):
+    """Torque limiter between the gear and the driving sprocket."""
+
+    torque: PositiveTorque
+    """setting: torque on the sprocket shaft at which it slips or breaks"""
+    tolerance: Annotated[
+        PositiveShare,
+        Assumed(0.1, 0.05, 0.2, "manufacturers set torque limiters within 10 %; 5 % at best, 20 % after wear"),
+    ] = 0.1
+    """deviation of the actual trip torque from the setting, to either side; 10 % is assumed, 5 % to 20 %"""
+    type: Literal["slip_clutch", "shear_pin"] = "slip_clutch"
+    """`slip_clutch` slips and keeps its torque, `shear_pin` breaks and disconnects the drive"""
+    reserve: Annotated[FactorFromOne, Limit()] = 1.25
+    """setting / torque of steady running; 1.25, or 1.5 with severe shocks, by manufacturers"""
+
+    @property
+    def least(self) -> float:
+        """Lowest trip torque [N*m]."""
+        return self.torque * (1 - self.tolerance)
+
+    @property
+    def most(self) -> float:
+        """Highest trip torque [N*m]."""
+        return self.torque * (1 + self.tolerance)
 
 
 class Equalising(Fragment):
@@ -134,6 +218,8 @@ class ChainChecks(CheckSettings):
     """breaking load / maximum tension of steady running; 7 for conveyors, 5 for drives when left out"""
     safety_start: Annotated[PositiveRatio, Limit()] = 5.0
     """breaking load / maximum tension of a start or stop"""
+    safety_jam: Annotated[PositiveRatio, Limit()] = 3.3
+    """breaking load / maximum tension when a jam trips the torque limiter; chains are preloaded with 30 % of it"""
     joint_pressure: Annotated[PositivePressure | None, Limit()] = None
     """maximum pin/bush bearing pressure; 20 to 30 MPa is usual"""
     wrap: Annotated[PositiveAngle, Limit()] = 2.0943951023931953
@@ -262,6 +348,8 @@ class ChainDrive(MachineSpec):
     """the brake"""
     backstop: Annotated[Backstop | None, Also("holdback")] = None
     """backstop (holdback) of an inclined conveyor"""
+    torque_limiter: TorqueLimiter | None = None
+    """torque limiter on the shaft of the driving sprocket: slip clutch or shear pin"""
     wear: Wear | None = None
     """wear of the link joints; needed for the life"""
     checks: ChainChecks = ChainChecks()

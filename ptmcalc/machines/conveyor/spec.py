@@ -12,7 +12,7 @@ from ptmcalc.components.motor import AnyMotor
 from ptmcalc.components.plate_motor import PlateMotor, gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
-from ptmcalc.components.starting_gear import AnyStarter, FluidCoupling
+from ptmcalc.components.starting_gear import AnyStarter, FluidCoupling, gear_without_curve
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
@@ -81,16 +81,7 @@ class Drive(Fragment):
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Starter and fluid coupling belong to a cage motor."""
         yield from super().conflicts(given)
-        motor = given.raw.get("motor")
-        if not isinstance(motor, dict) or "power" in motor:
-            return
-        curve = motor.get("curve")
-        if isinstance(curve, dict) and curve.get("type") == "induction":
-            return
-        for key in ("starter", "fluid_coupling"):
-            if key in given:
-                reason = "it requires the curve of a cage motor"
-                yield Conflict((key,), reason, "add `power: 90 kW` and `poles: 4` to `motor`")
+        yield from gear_without_curve(given)
 
     @property
     def running_curve(self) -> AnyMotor | None:

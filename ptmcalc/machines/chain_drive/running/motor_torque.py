@@ -10,7 +10,7 @@ from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Run, Start
 def motors_of(spec: ChainDrive) -> dict[str, Motors]:
     """The motors of the drive, where the file gives their curve."""
     drive = spec.drive
-    curve = drive.motor.running_curve if drive is not None else None
+    curve = drive.running_curve if drive is not None else None
     if drive is None or curve is None:
         return {}
     turns = drive.gear.ratio / mean_arm(spec)

@@ -21,8 +21,8 @@ from ptmcalc.machines.chain_drive.model import (
     damping_ratios,
     drive_of,
     filled,
+    gear_side_inertia,
     mean_arm,
-    motor_side_inertia,
     sprocket_inertia,
 )
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
@@ -50,7 +50,7 @@ def start_factor(spec: ChainDrive) -> float:
 
 def motor_torque(spec: ChainDrive) -> float:
     """Mean starting torque of all motors [N*m]."""
-    return drive_of(spec).motor.count * drive_of(spec).motor.mean_torque
+    return drive_of(spec).motor.count * drive_of(spec).mean_torque
 
 
 def sprocket_mass(spec: ChainDrive) -> float:
@@ -70,7 +70,7 @@ def rigid_acceleration(spec: ChainDrive, line: ChainLine, torque: float) -> tupl
     gear = drive_of(spec).gear
     return chain_start.rigid_acceleration(
         torque,
-        motor_side_inertia(spec),
+        gear_side_inertia(spec),
         gear.ratio,
         filled(gear.efficiency),
         mean_arm(spec),
@@ -186,7 +186,7 @@ def start_case(spec: ChainDrive, scene: Start) -> StartCase:
     line, profile, gear = chain_line(spec, scene, start_factor(spec)), scene.profile, drive_of(spec).gear
     arm = mean_arm(spec)
     plateau, losses = rigid_acceleration(spec, line, motor_torque(spec))
-    drive = losses * motor_side_inertia(spec) * (gear.ratio / arm) ** 2 + sprocket_mass(spec)
+    drive = losses * gear_side_inertia(spec) * (gear.ratio / arm) ** 2 + sprocket_mass(spec)
     imposed = profile.imposes_speed
     loop = light_return(spec, line.masses(0.0 if imposed else drive, imposed))
     available = losses * motor_torque(spec) * gear.ratio / arm
@@ -334,7 +334,7 @@ def curve_start(spec: ChainDrive, scene: Start) -> tuple[float, float]:
     t = integral of dv/a(v),   up to nine tenths of the speed where the motors do not exceed the resistance of a start
     beyond it, and infinite where they do not even there
     """
-    curve, gear = drive_of(spec).motor.start_curve, drive_of(spec).gear
+    curve, gear = drive_of(spec).start_curve, drive_of(spec).gear
     assert curve is not None
     line, count = chain_line(spec, scene, start_factor(spec)), drive_of(spec).motor.count
     speeds = np.linspace(0.0, line.speed, _CURVE + 1)

@@ -9,9 +9,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_start, inertia, wave
-from ptmcalc.machines.chain_drive.model import drive_of, filled, mean_arm, motor_side_inertia, radius, sprocket_inertia
+from ptmcalc.machines.chain_drive.model import drive_of, filled, gear_side_inertia, mean_arm, radius, sprocket_inertia
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, rigid_tensions
+from ptmcalc.machines.chain_drive.starting.geared import geared_start
 from ptmcalc.machines.chain_drive.starting.motion import (
     UP_TO,
     StartCase,
@@ -29,7 +30,8 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
         J_red = J + m (R/i)^2/e,   t = (J_red/(M - W R/(e i))) w,   S = S_static + a r
 
     m includes chain, load, tail and sprocket; R = z p/(2 pi). r is the mass accelerated by the entering strand (gravity
-    take-up), or this mass less its mean over the loop (screw take-up). For an imposed speed a = V q'_max.
+    take-up), or this mass less its mean over the loop (screw take-up). For an imposed speed a = V q'_max. A star-delta
+    starter, a soft starter or fluid couplings change M over speed and time in the starting time and the reserve.
 
     **Range** any start; the gear losses are those at full torque.
     **Error** no error bar of its own except the quadrature error on a motor curve; the bounds of the effects cover
@@ -67,7 +69,7 @@ def _of_the_drive(spec: ChainDrive, case: StartCase) -> dict[str, float]:
         "starting_force": case.available,
         "starting_reserve": least_force(spec, case) / needed if needed > 0 else math.inf,
         "acceleration_motor": case.acceleration * gear.ratio / arm,
-        "reduced_inertia": motor_side_inertia(spec) + driven * (arm / gear.ratio) ** 2 / case.losses,
+        "reduced_inertia": gear_side_inertia(spec) + driven * (arm / gear.ratio) ** 2 / case.losses,
         "wave_speed": wave.wave_speed(case.line.working.stiffness, case.line.working.line_mass),
     }
 
@@ -75,11 +77,17 @@ def _of_the_drive(spec: ChainDrive, case: StartCase) -> dict[str, float]:
 def least_force(spec: ChainDrive, case: StartCase) -> float:
     """Force of the drive that must move the chain [N]: the mean one, or the smallest on the curve of the motors up to
     nine tenths of the rated speed."""
-    curve, gear = drive_of(spec).motor.start_curve, drive_of(spec).gear
-    if not case.follows_curve or curve is None:
+    drive = drive_of(spec)
+    if not case.follows_curve or drive.start_curve is None:
         return case.available
-    speeds = np.linspace(0.0, UP_TO * case.line.speed, _SPEEDS) / mean_arm(spec) * gear.ratio
-    return case.available * float(curve.torque(speeds, np.inf).min()) / drive_of(spec).motor.mean_torque
+    turns = drive.gear.ratio / mean_arm(spec)
+    until = max(UP_TO * case.line.speed * turns, drive.switch_over * _JUST_BELOW)
+    speeds = np.linspace(0.0, until, _SPEEDS)
+    return case.available * float(drive.torques(speeds).min()) / drive.mean_torque
+
+
+_JUST_BELOW = 1 - 1e-9
+"""Speed in star connection at its end relative to that of the switch-over [1]; a numerical choice near 1."""
 
 
 _SPEEDS = 181
@@ -90,13 +98,15 @@ find a narrow minimum more closely."""
 def inertia_at_chain(spec: ChainDrive, case: StartCase) -> float:
     """Motors, couplings and sprocket at the chain, through the losses of the start [kg]."""
     gear, arm = drive_of(spec).gear, mean_arm(spec)
-    return (case.losses * motor_side_inertia(spec) * gear.ratio**2 + sprocket_inertia(spec)) / arm**2
+    return (case.losses * gear_side_inertia(spec) * gear.ratio**2 + sprocket_inertia(spec)) / arm**2
 
 
 def _start_time(spec: ChainDrive, scene: Start, case: StartCase) -> Estimate:
     if not case.follows_curve:
         return Estimate.exact(case.duration)
-    time, off = curve_start(spec, scene)
+    drive = drive_of(spec)
+    by_gear = drive.starter is not None or drive.fluid_coupling is not None
+    time, off = geared_start(spec, scene) if by_gear else curve_start(spec, scene)
     if math.isinf(time):
         return Estimate.exact(time)
     return Estimate(time, time, math.inf, math.inf) if math.isinf(off) else Estimate.within(time, off)
@@ -143,7 +153,7 @@ def notes(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
         return Result({}, work=1)
     gear, r, mass = drive_of(spec).gear, radius(spec), case.line.moving_mass
     ratio, efficiency = gear.ratio, filled(gear.efficiency)
-    whole = motor_side_inertia(spec) + inertia.mass_on_motor_shaft(mass, r, 1.0, ratio, efficiency, inertia.DRIVE)
+    whole = gear_side_inertia(spec) + inertia.mass_on_motor_shaft(mass, r, 1.0, ratio, efficiency, inertia.DRIVE)
     static = case.line.static_resistance * r / (ratio * efficiency)
     torque, speed = motor_torque(spec), case.line.speed / r * ratio
     eps = chain_start.start_acceleration(torque, static, whole)
