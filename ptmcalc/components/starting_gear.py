@@ -11,7 +11,7 @@ from ptmcalc.components.motor import AnyMotor, InductionBase, RatedSlip, TableMo
 from ptmcalc.numerics.belt.curve import CurveStage
 from ptmcalc.spec.fields import Fraction, PositiveEnergy, PositiveRatio, PositiveTime
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
-from ptmcalc.spec.optional import Assumed, Limit
+from ptmcalc.spec.optional import Absent, Assumed, Limit
 
 STAR = 1 / 3
 """Torque in star connection relative to that in delta [1]: each winding has 1/sqrt(3) of the voltage."""
@@ -78,15 +78,7 @@ class UnratedCoupling(Fragment):
         top, rated = motor.no_load_speed, motor.rated
         assert top is not None
         assert rated is not None
-        own = (
-            (motor.synchronous_speed - motor.speed) / motor.synchronous_speed
-            if isinstance(motor, InductionBase)
-            else 0.0
-        )
-        width, most = (own + self.slip) * self.torque_limit * top, self.torque_limit * rated
-        knots = (top - width, most), (top + width, -most)
-        points = tuple(TorquePoint.model_construct(speed=speed, torque=torque) for speed, torque in knots)
-        return TableMotor.model_construct(type="table", points=points, rated_torque=rated, largest_torque=None)
+        return _slip_line(motor, top, rated, self.slip, self.torque_limit)
 
 
 class FluidCoupling(UnratedCoupling):
@@ -96,18 +88,56 @@ class FluidCoupling(UnratedCoupling):
     """permissible heat of the coupling per start, from its data sheet; needed to check the start"""
 
 
+class Converter(Fragment):
+    """A frequency converter between the mains and each motor of a drive."""
+
+    droop: Annotated[Fraction, Absent("converters without droop hold their frequency")] = 0.0
+    """fall of the frequency at the rated torque, relative to the rated frequency; drives then share the load more
+    equally"""
+    torque_limit: Annotated[
+        PositiveRatio, Assumed(1.5, 1.2, 1.8, "converters give 1.5 times the rated torque for 60 s, 1.2 to 1.8 by size")
+    ] = 1.5
+    """largest torque relative to the rated torque of the motor, driving and braking; 1.5 is assumed, 1.2 to 1.8"""
+
+    def behind(self, motor: AnyMotor) -> TableMotor:
+        """The torque of a motor over its speed at the rated frequency of its converter.
+
+            M = M_n min(s/(s_n + k), lambda),   s = 1 - w/w_0
+
+        The droop k adds to the rated slip s_n of the motor.
+
+        **Range** a torque limit below the breakdown torque.
+        **Error** slip lines are taken to be straight.
+        **Source** derived: the frequency falls in proportion to the torque.
+        """
+        top, rated = motor.no_load_speed, motor.rated
+        assert top is not None
+        assert rated is not None
+        return _slip_line(motor, top, rated, self.droop, self.torque_limit)
+
+
+def _slip_line(motor: AnyMotor, top: float, rated: float, slip: float, limit: float) -> TableMotor:
+    """Straight slip line of a motor with more slip, up to a limit of the torque relative to the rated one."""
+    own = (motor.synchronous_speed - motor.speed) / motor.synchronous_speed if isinstance(motor, InductionBase) else 0.0
+    width, most = (own + slip) * limit * top, limit * rated
+    knots = (top - width, most), (top + width, -most)
+    points = tuple(TorquePoint.model_construct(speed=speed, torque=torque) for speed, torque in knots)
+    return TableMotor.model_construct(type="table", points=points, rated_torque=rated, largest_torque=None)
+
+
 def gear_without_curve(given: Given) -> Iterator[Conflict]:
-    """Starter and fluid coupling of a drive whose motor is no cage motor."""
+    """Starter, fluid coupling and converter: one of them, with a cage motor."""
+    keys = [key for key in ("starter", "fluid_coupling", "converter") if key in given]
+    for key in keys[1:]:
+        yield Conflict((key,), f"the drive has a `{keys[0]}` already", f"delete `{keys[0]}` or `{key}`")
     motor = given.raw.get("motor")
     if not isinstance(motor, dict) or "power" in motor:
         return
     curve = motor.get("curve")
     if isinstance(curve, dict) and curve.get("type") == "induction":
         return
-    for key in ("starter", "fluid_coupling"):
-        if key in given:
-            reason = "it requires the curve of a cage motor"
-            yield Conflict((key,), reason, "add `power: 90 kW` and `poles: 4` to `motor`")
+    for key in keys:
+        yield Conflict((key,), "it requires the curve of a cage motor", "add `power: 90 kW` and `poles: 4` to `motor`")
 
 
 def in_star(stages: Sequence[CurveStage], switch_over: float) -> tuple[CurveStage, ...]:

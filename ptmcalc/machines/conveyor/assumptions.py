@@ -436,6 +436,15 @@ def _of_a_drive(path: KeyPath, drive: Drive) -> Iterator[Assumption[Conveyor]]:
         lambda spec: Interval(0.10 * rotor(spec), 0.25 * rotor(spec)),
         "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
     )
+    if drive.drum.tolerance is not None:
+        most = drive.drum.tolerance
+        yield Assumption(
+            (*path, "drum", "deviation"),
+            units.LENGTH,
+            lambda spec: 0.0,
+            lambda spec: Interval(-most, most),
+            "`tolerance` of the file: manufacture and wear of the lagging",
+        )
     yield Assumption(
         (*path, "drum", "inertia"),
         units.INERTIA,

@@ -112,7 +112,7 @@ def _controlled_stop(spec: Conveyor, scene: ControlledStop, line: BeltLine) -> M
     """The converters hold the speed of the pulleys; with drives at both ends, the frequencies of the motors."""
     time, way = rigid_stop(spec, scene, line)
     window, pulls = time + _CONTOURS * line.contour_time, {name: _constant(0.0) for name in spec.all_drives}
-    if _at_both_ends(spec) and motors_of(spec):
+    if _slips(spec) and motors_of(spec):
         creep, steady = creep_of(spec, line), steady_motor_speeds(spec, line)
         curves = {
             name: lowered_by_converter(scene, drive, creep[name], line.speed, steady[name])
@@ -126,8 +126,10 @@ def _controlled_stop(spec: Conveyor, scene: ControlledStop, line: BeltLine) -> M
     return Moving(spec, scene, line, pulls, imposed, line.speed, window, time, way)
 
 
-def _at_both_ends(spec: Conveyor) -> bool:
-    return len({drive.at for drive in spec.all_drives.values()}) > 1
+def _slips(spec: Conveyor) -> bool:
+    """Whether the slip of the motors decides: drives at both ends, or converters with droop and torque limit."""
+    drives = spec.all_drives.values()
+    return len({drive.at for drive in drives}) > 1 or any(drive.converter is not None for drive in drives)
 
 
 def rounds(spec: Conveyor, scene: ConveyorScene) -> float:
@@ -140,9 +142,10 @@ def on_slip_lines(spec: Conveyor, scene: Start) -> bool:
     """Whether the converters of a start hold the frequencies of their motors and not the speeds of the pulleys.
 
     Equal speeds of pulleys at both ends would share the load by the creep of the belt alone, ever more unequally: the
-    slip of the motors decides there. Motors that are switched off hold no speed.
+    slip of the motors decides there. Motors that are switched off hold no speed. Converters with a torque limit do not
+    hold it either where the limit is reached.
     """
-    lines = _at_both_ends(spec) or scene.aborted is not None
+    lines = _slips(spec) or scene.aborted is not None
     return scene.profile.imposes_speed and lines and bool(motors_of(spec))
 
 

@@ -106,7 +106,8 @@ def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Whether a solver of the plain start can take the machine.
 
         n = slopes and loads along a strand + drives + 1 for an aborted start, + 1 for a motor's curve or a table, + 1
-        for a take-up weight at the tail or with known stops, + 1 for horizontal curves
+        for a take-up weight at the tail or with known stops, + 1 for horizontal curves, + 1 for converters with
+        their own data
 
     A relaxed belt is taken as one with the running friction frozen in it; the effect `coulomb_idlers` says by how much.
 
@@ -123,6 +124,7 @@ def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
         + unusual
         + (line.weight_at_tail or (spec.takeup.budgeted and not line.fixed_length))
         + bool(spec.route.bends)
+        + any(drive.converter is not None for drive in spec.all_drives.values())
     )
     meaning = "slopes, drives, aborted starts, curves and tables: 2 for one slope and one drive"
     return Criterion("n", count, 3, meaning, "count")

@@ -12,7 +12,7 @@ from ptmcalc.components.motor import AnyMotor
 from ptmcalc.components.plate_motor import PlateMotor, gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
-from ptmcalc.components.starting_gear import AnyStarter, FluidCoupling, gear_without_curve
+from ptmcalc.components.starting_gear import AnyStarter, Converter, FluidCoupling, gear_without_curve
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
@@ -36,6 +36,7 @@ from ptmcalc.spec.fields import (
     PositiveTorque,
     Power,
     RunningTime,
+    SignedLength,
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
@@ -48,17 +49,37 @@ _HOUR = 3600.0
 """Seconds of an hour."""
 
 
+_MOST_WEAR = 0.1
+"""Largest deviation of a diameter, relative to it [1]; an engineering choice. More is another pulley."""
+
+
 class DriveDrum(Fragment):
     """The drive pulley."""
 
     diameter: PositiveLength
     """of the pulley with its lagging"""
+    tolerance: Annotated[Length | None, Absent("several drives: pulleys of exactly the given diameters")] = None
+    """largest deviation of the diameter, by manufacture and wear of the lagging; drives at one belt then share the load
+    unequally"""
+    deviation: Annotated[SignedLength | None, Assumed()] = None
+    """deviation of the diameter from `diameter`; assumed 0 within `tolerance` where that is given"""
     wrap: PositiveAngle
     """wrap angle of the belt"""
     friction: Annotated[PositiveRatio | None, Limit()] = None
     """friction coefficient between belt and pulley; needed to check the traction"""
     inertia: Annotated[Inertia | None, Assumed()] = None
     """of the pulley on its own shaft; assumed 0 when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A pulley is nearly as large as its diameter says."""
+        yield from super().conflicts(given)
+        diameter = given.number("diameter")
+        for key in ("tolerance", "deviation"):
+            value = given.number(key)
+            if value is not None and diameter is not None and abs(value) > _MOST_WEAR * diameter:
+                hint = f"write `{key}: 2 mm`, or another `diameter`"
+                yield Conflict((key,), "it is more than a tenth of the diameter", hint)
 
 
 class Drive(Fragment):
@@ -76,19 +97,22 @@ class Drive(Fragment):
     """starter of a cage motor: `star_delta` or `soft`; switched on directly when left out"""
     fluid_coupling: FluidCoupling | None = None
     """fluid coupling between each motor and the gear"""
+    converter: Converter | None = None
+    """frequency converter of each motor: droop and torque limit; starts with a `profile` of the speed and controlled
+    stops need none without them"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """Starter and fluid coupling belong to a cage motor."""
+        """Starter, fluid coupling and converter belong to a cage motor."""
         yield from super().conflicts(given)
         yield from gear_without_curve(given)
 
     @property
     def running_curve(self) -> AnyMotor | None:
-        """Torque on the input shaft of the gear in steady running, of one motor: that of the coupling, if there is
-        one."""
-        curve = self.motor.running_curve
-        return curve if curve is None or self.fluid_coupling is None else self.fluid_coupling.behind(curve)
+        """Torque on the input shaft of the gear in steady running, of one motor: that of the coupling or converter, if
+        there is one."""
+        curve, between = self.motor.running_curve, self.fluid_coupling or self.converter
+        return curve if curve is None or between is None else between.behind(curve)
 
     @property
     def start_curve(self) -> AnyMotor | None:
@@ -105,6 +129,8 @@ class Drive(Fragment):
         """Mean starting torque of one motor, on the input shaft of the gear [N*m]."""
         if self.fluid_coupling is not None and (curve := self.start_curve) is not None:
             return self.motor.mean_of(curve)
+        if self.converter is not None and (rated := self.motor.rated_torque) is not None:
+            return self.converter.torque_limit * rated
         return self.motor.mean_torque
 
 

@@ -86,7 +86,7 @@ def _heat_checks(spec: Conveyor, scene: Start) -> Checks:
     """One for each drive without a fluid coupling whose motors say what they bear, in a start on the mains."""
     for name, drive in spec.all_drives.items() if not scene.profile.imposes_speed else ():
         most = drive.motor.start_heat
-        if most is None or drive.fluid_coupling is not None:
+        if most is None or drive.fluid_coupling is not None or drive.converter is not None:
             continue
         path = spec.drive_path(name)
         key = starting_torque_key(spec, path)
