@@ -161,7 +161,9 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
             aborted = scene.aborted
             latest = max(drive.delay for drive in spec.all_drives.values())
             latest += aborted.run + aborted.pause if aborted else 0.0
-            return Moving(spec, scene, line, pulls, None, 0.0, latest + window, latest + rise, math.nan, curves)
+            steady = 0.0 if aborted else _until_steady(line, rigid_curve_start(line, curves)[2])
+            window = max(latest + window, steady)  # a torque limit or the slip of the motors may delay the belt
+            return Moving(spec, scene, line, pulls, None, 0.0, window, latest + rise, math.nan, curves)
 
         def imposed(time: float) -> float:
             return line.speed * float(start_profile.rise(profile.rise, rise, time))

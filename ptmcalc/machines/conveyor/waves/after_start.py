@@ -37,8 +37,8 @@ MODES = 256
 """Maximum number of springs of a belt whose modes are computed. A numerical choice: time grows with its cube. A smaller
 number takes the modes of a coarser grid."""
 AT_SPEED = 0.99
-"""Speed of a pulley relative to rated speed [1] from which on it counts as reached. An engineering choice. A larger
-value reports more starts as unfinished."""
+"""Speed of a pulley relative to that of steady running [1] from which on it counts as reached. An engineering choice. A
+larger value reports more starts as unfinished."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +57,11 @@ class Ending:
     drifts: bool = False
 
 
-def ending(line: BeltLine, drum: float, slips: bool, row: Row, tail: int) -> Ending:
-    """The end of a start whose slowest drum has a speed [m/s]."""
-    slow = drum < AT_SPEED * line.speed
+def ending(goal: float, drum: float, slips: bool, row: Row, tail: int) -> Ending:
+    """The end of a start to a speed, whose slowest drum has another one [m/s]."""
+    slow = drum < AT_SPEED * goal
     how = ", the pulley slips" if slips else ""
-    state = f"belt at {drum:.3g} of {line.speed:.3g} m/s{how}" if slow or slips else ""
+    state = f"belt at {drum:.3g} of {goal:.3g} m/s{how}" if slow or slips else ""
     return Ending(None if state else row, tail, state, slips)
 
 

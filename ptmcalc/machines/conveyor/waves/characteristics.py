@@ -74,7 +74,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     belt, drum = float(fine.belt_speed[-1]), float(fine.drum_speed[-1])
     slips = fine.slipped and abs(drum - belt) > _STICKS * case.line.speed
     known = next((one for one in reversed(motions) if len(one.ending.pulls) <= MODES), motions[0])
-    end = ending(case.line, min(belt, drum), slips, known.ending, known.tail)
+    end = ending(case.line.speed, min(belt, drum), slips, known.ending, known.tail)
     if case.line.grip_exponent is not None:
         loads |= slip_loads(case, only, case.line.grip_exponent, motions, (bars.on, bars.off))
     findings = findings_of(case, fine, "sag" in carried)

@@ -13,8 +13,9 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Failure, Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.conveyor.load_sharing import steady_motor_speeds
 from ptmcalc.machines.conveyor.loads import DRIVE, DRIVE_OF_STOP, OF_NETWORK, PER_DRIVE
-from ptmcalc.machines.conveyor.model import belt_line
+from ptmcalc.machines.conveyor.model import belt_line, turns
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.plain_start import delay_lines_do
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Start
@@ -100,11 +101,21 @@ def _ending(case: Moving, runs: Sequence[CellRun], slipping: bool) -> Ending | N
     middles = course.middles[: course.tail], course.middles[course.tail :] - line.back.length
     statics = [line.static(which, at / line.strand(which).length) for which, at in zip((0, 1), middles, strict=True)]
     slowest = min(run.drawn.head[-1].belt, *run.drawn.head[-1].drums)
-    end = ending(line, slowest, slipping, replace(row, pulls=row.pulls - np.concatenate(statics)), course.tail)
+    end = ending(_goal(case), slowest, slipping, replace(row, pulls=row.pulls - np.concatenate(statics)), course.tail)
     if end.state or run.ready.travel is None or not (run.ready.head.imposes and run.ready.tail.imposes):
         return end
     shifts = f"belt at {slowest:.3g} m/s, the load share of the drives at head and tail still changes"
     return replace(end, drifts=True, state=shifts)
+
+
+def _goal(case: Moving) -> float:
+    """Speed of the belt at which its start is over [m/s]: that of steady running, which slip may keep below the rated
+    speed."""
+    if not case.curves:
+        return case.line.speed
+    drives = case.spec.all_drives
+    steady = steady_motor_speeds(case.spec, case.line)
+    return min(case.line.speed, *(speed / turns(drives[name]) for name, speed in steady.items()))
 
 
 def _before(case: Moving, carried: frozenset[str], level: int, lost: GripLostError) -> Result:
