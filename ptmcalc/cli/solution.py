@@ -138,7 +138,7 @@ def _row(key: Key, one: Judgement, before: Judgement | None) -> dict[str, object
 
 def _cells(key: Key, one: Judgement, before: Judgement | None) -> list[str]:
     was = before.verdict.value.replace("_", " ") if before and before.verdict is not one.verdict else ""
-    value, limit = (words.amount(number, one.quantity) if number else "" for number in (one.value, one.limit))
+    value, limit = words.value(one), words.amount(one.limit, one.quantity) if one.limit else ""
     return [
         one.verdict.value.replace("_", " "),
         was,

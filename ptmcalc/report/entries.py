@@ -67,7 +67,7 @@ def said(judgement: Judgement) -> str:
     parts = []
     if judgement.value is not None and judgement.limit is not None:
         limit = words.amount(judgement.limit, judgement.quantity)
-        value = words.amount(judgement.value, judgement.quantity)
+        value = words.value(judgement)
         parts.append(f"{value}, limit {_RELATION[judgement.sense]} {limit}")
     parts.append(words.remark(judgement))
     return "; ".join(filter(None, parts))

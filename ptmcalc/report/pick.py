@@ -59,7 +59,7 @@ def _folded(rows: Sequence[Row]) -> list[Row]:
 
 def as_read(judgement: Judgement) -> tuple[object, ...]:
     """All that a reader is told of a verdict but its scene."""
-    numbers = [words.amount(one, judgement.quantity) if one else "" for one in (judgement.value, judgement.limit)]
+    numbers = words.value(judgement), words.amount(judgement.limit, judgement.quantity) if judgement.limit else ""
     about = (judgement.verdict, judgement.code, judgement.element, judgement.blame, words.remark(judgement))
     return (*about, *numbers, words.margin(judgement))
 

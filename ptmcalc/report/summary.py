@@ -35,6 +35,6 @@ def _cells(report: FileReport) -> Iterator[str]:
         yield from ("", "", "", "")
         return
     yield from (" ".join(filter(None, (worst.code, worst.element))), scene)
-    yield words.amount(worst.value, worst.quantity) if worst.value else ""
+    yield words.value(worst)
     yield f"{_SIGN[worst.sense]} {words.amount(worst.limit, worst.quantity)}" if worst.limit else ""
     yield words.margin(worst)

@@ -74,7 +74,7 @@ def _worst(console: Console, report: FileReport) -> None:
 def _numbers(report: FileReport, judgement: Judgement) -> Iterator[str]:
     """`0.4348, limit ≥ 1.2, margin -63.8 %; governed by drum.friction (belt.yaml:25:15);`."""
     found = {
-        "": words.amount(judgement.value, judgement.quantity) if judgement.value else "",
+        "": words.value(judgement),
         "limit ": _limit(judgement),
         "margin ": words.margin(judgement),
     }
@@ -288,7 +288,7 @@ def _in_columns(rows: Sequence[Row], edge: bool, width: int) -> tuple[list[str],
 
 def _cells(row: Row, edge: bool) -> list[str]:
     judgement = row.judgement
-    value = words.amount(judgement.value, judgement.quantity) if judgement.value else ""
+    value = words.value(judgement)
     return [
         glued(_verdict(judgement)),
         f"{judgement.code} {words.subject(judgement)}",

@@ -20,6 +20,8 @@ SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 BALANCED = 1e-11
 """A balance of works that closes to less closes to rounding."""
 
+_DIGITS, _MOST_DIGITS = 4, 10
+"""Significant digits of a number, and the most that tell a value from its limit."""
 _BARS = "▁▂▃▄▅▆▇█"
 
 
@@ -71,6 +73,21 @@ def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
     places = max(1 - math.floor(math.log10(bar)), 0)
     rounded = round(middle, places) + 0.0  # of a zero without its sign
     return f"{rounded:.{places}f} ±{bar:.{places}f}{suffix}"
+
+
+def value(judgement: Judgement) -> str:
+    """The value of a check as it stands beside its limit: with more digits where both would read the same; empty without
+    a value."""
+    found, limit, quantity = judgement.value, judgement.limit, judgement.quantity
+    if found is None:
+        return ""
+    text = amount(found, quantity)
+    if limit is None or found.value == limit.value or text != amount(limit, quantity):
+        return text
+    for places in range(_DIGITS + 1, _MOST_DIGITS):
+        if show(found.value, quantity, places) != show(limit.value, quantity, places):
+            return show(found.value, quantity, places)
+    return text
 
 
 def common_unit(values: Iterable[float], quantity: Quantity) -> str:

@@ -1,12 +1,14 @@
 """The plain lines: one `file:line:column: verdict CODE ...` each, for editors, logs and grep."""
 
 import re
+from dataclasses import replace
 
 import pytest
 from support.command import report_of_file
 from support.samples import SAMPLES
 
 from ptmcalc.base.diagnostic import Diagnostic
+from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.report import FileReport
 from ptmcalc.report import Format, render
 
@@ -121,3 +123,12 @@ def test_findings_of_a_file_without_a_place_name_the_file_alone() -> None:
 )
 def test_the_last_line_counts(names: tuple[str, ...], summary: str) -> None:
     assert render(Format.PLAIN, [SAMPLES[name] for name in names]).splitlines()[-1] == summary
+
+
+@pytest.mark.parametrize(("value", "printed"), [(10_000.4, "10.0004"), (10_400.0, "10.4"), (10_000.0, "10")])
+def test_a_value_that_is_not_its_limit_does_not_read_like_it(value: float, printed: str) -> None:
+    report = SAMPLES["failing"]
+    (first, *others) = report.scenes
+    judged = replace(first.checks[0], value=Estimate.exact(value))
+    text = render(Format.PLAIN, [replace(report, scenes=(replace(first, checks=(judged,)), *others))])
+    assert f": {printed} kN, limit ≤ 10 kN" in text

@@ -138,14 +138,14 @@ def page(report: FileReport, source: Source) -> Entry:
 
 
 def _check(report: FileReport, source: Source, scene: str, judgement: Judgement) -> Entry:
-    value, limit, repair = judgement.value, judgement.limit, judgement.repair
+    limit, repair = judgement.limit, judgement.repair
     said = [judgement.reason, f"without {', '.join(judgement.without)}" if judgement.without else ""]
     return {
         "state": judgement.verdict.value,
         "code": judgement.code,
         "title": words.subject(judgement),
         "scene": scene,
-        "value": words.amount(value, judgement.quantity) if value else "",
+        "value": words.value(judgement),
         "limit": f"{_SIGN[judgement.sense]} {words.amount(limit, judgement.quantity)}" if limit else "",
         "margin": words.margin(judgement),
         "level": _level_of(report, scene, judgement),
@@ -403,7 +403,7 @@ def row(report: FileReport, page: str) -> Entry:
     relative = words.relative_margin(worst)
     return entry | {
         "governs": f"{worst.code} {words.subject(worst)}",
-        "value": words.amount(worst.value, worst.quantity) if worst.value else "",
+        "value": words.value(worst),
         "limit": f"{_SIGN[worst.sense]} {words.amount(worst.limit, worst.quantity)}" if worst.limit else "",
         "margin": words.margin(worst),
         "value_sort": _sortable(worst.value),
