@@ -76,8 +76,8 @@ def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
 
 
 def value(judgement: Judgement) -> str:
-    """The value of a check as it stands beside its limit: with more digits where both would read the same; empty without
-    a value."""
+    """The value of a check as it stands beside its limit: with more digits where both would read the same; empty
+    without a value."""
     found, limit, quantity = judgement.value, judgement.limit, judgement.quantity
     if found is None:
         return ""
