@@ -16,7 +16,7 @@ from ptmcalc.machines.hoist.statics.solver import HOIST_STATICS
 
 WITHOUT_BARS = {"hoist": ("hoist_statics", "holding_brake", "starting_reserve")}
 KIND = load_kind("hoist")
-SEED, ALWAYS = 1911, 50
+SEED, ALWAYS = 1911, 30
 REFERENCE = 1e-10
 WAYS = {"run": HOIST_STATICS, "start": STARTING, "lower_brake": HOLDING}
 LIMITS = {

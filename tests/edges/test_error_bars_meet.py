@@ -14,7 +14,7 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 
 SEED = int(os.environ.get("PTMCALC_SEED", "37"))
-NUMBER = 20
+NUMBER = 8
 QUICK, STUDY = 0.4, 1.0
 """Predicted seconds of a scene of these and of the study, which takes all settings of each."""
 AUTOMATIC, ALL_ON = "automatic", "all effects on"

@@ -9,7 +9,7 @@ from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.result import family
 
 SEED = int(os.environ.get("PTMCALC_SEED", "31"))
-NUMBER = 20
+NUMBER = 8
 
 
 def left_by_a_longer_look(kind: AnyKind, seed: int, index: int) -> list[str]:

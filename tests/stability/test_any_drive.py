@@ -17,7 +17,7 @@ BUDGET, TRIED = 0.3, 0.05
 """Predicted seconds of a scene, and of one run that is held against the others."""
 EVALUATIONS = 10_000_000
 FEW = settings(
-    max_examples=20,
+    max_examples=8,
     derandomize=True,
     deadline=None,
     database=None,

@@ -2,8 +2,13 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Brake, ControlledStop, Conveyor, ConveyorScene, EmergencyStop, Stop
+
+FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +24,12 @@ class Braking:
         if time <= self.delay:
             return 0.0
         return self.force * (min((time - self.delay) / self.rise, 1.0) if self.rise > 0 else 1.0)
+
+    def over(self, times: FloatArray) -> FloatArray:
+        """Capacity over time [N]."""
+        since = times - self.delay
+        part = np.clip(since / self.rise, 0.0, 1.0) if self.rise > 0 else np.ones_like(since)
+        return np.where(since > 0, self.force * part, 0.0)
 
 
 def brakes_of(spec: Conveyor, scene: ConveyorScene) -> dict[str, Brake]:

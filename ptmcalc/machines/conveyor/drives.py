@@ -39,6 +39,9 @@ _CURVE_STEPS = 4000
 """Steps of the rigid start along a motor curve; a numerical choice. A step is 1/400 of the time at mean acceleration,
 and the integration stops after 200 such times. Heun's rule has an error of second order: twice the number takes twice
 the time and leaves a quarter of the error."""
+CONVERTER_STEPS = 2000
+"""The same of starts on converters, of which only the end of the window is taken; a numerical choice. Fewer steps are
+unstable on steep slip lines."""
 
 
 def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
@@ -235,7 +238,9 @@ def at_rest(curve: MotorForce) -> Callable[[FloatArray], FloatArray]:
     return lambda times: forces(curve, times, np.zeros(np.shape(times)))
 
 
-def rigid_curve_start(line: BeltLine, curves: Mapping[str, MotorForce]) -> tuple[float, float, float]:
+def rigid_curve_start(
+    line: BeltLine, curves: Mapping[str, MotorForce], steps: int = _CURVE_STEPS
+) -> tuple[float, float, float]:
     """When the rigid body reaches rated speed, or nearly the speed at which its motors' curves leave it, its way by
     then, and when it has nearly that last speed, by Heun's rule; zeros where it never gets away."""
     mass, resistance = moving_mass(line), line.static_resistance + line.tail_pull
@@ -251,10 +256,10 @@ def rigid_curve_start(line: BeltLine, curves: Mapping[str, MotorForce]) -> tuple
         return 0.0, 0.0, 0.0
     steady = goal if least <= 0 else max(_SETTLED * _steady_speed(line, curves, resistance), goal)
     typical = float(np.mean([max(rate(_LATE_STAGE, speed), 0.0) for speed in speeds if speed <= goal]))
-    step = goal / typical / (_CURVE_STEPS / 10)
+    step = goal / typical / (steps / 10)
     time = speed = way = 0.0
     reached: tuple[float, float] | None = None
-    for _ in range(20 * _CURVE_STEPS):
+    for _ in range(20 * steps):
         first = rate(time, speed)
         second = rate(time + step, max(speed + first * step, 0.0))
         new = max(speed + (first + second) / 2 * step, 0.0)

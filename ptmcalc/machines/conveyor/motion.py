@@ -6,8 +6,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ptmcalc.base.memory import kept_for
 from ptmcalc.laws import capstan, start_profile
 from ptmcalc.machines.conveyor.drives import (
+    CONVERTER_STEPS,
     along_curve,
     at_rest,
     lowered_by_converter,
@@ -87,6 +89,7 @@ def moving(spec: Conveyor, scene: ConveyorScene) -> Moving:
     return case if factor == 1 else replace(case, window=case.window * factor)
 
 
+@kept_for(64)
 def _usual(spec: Conveyor, scene: ConveyorScene) -> Moving:
     """The same over the usual window."""
     line = running(spec, scene)
@@ -161,7 +164,7 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
             aborted = scene.aborted
             latest = max(drive.delay for drive in spec.all_drives.values())
             latest += aborted.run + aborted.pause if aborted else 0.0
-            steady = 0.0 if aborted else _until_steady(line, rigid_curve_start(line, curves)[2])
+            steady = 0.0 if aborted else _until_steady(line, rigid_curve_start(line, curves, CONVERTER_STEPS)[2])
             window = max(latest + window, steady)  # a torque limit or the slip of the motors may delay the belt
             return Moving(spec, scene, line, pulls, None, 0.0, window, latest + rise, math.nan, curves)
 

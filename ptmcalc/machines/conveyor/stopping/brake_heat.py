@@ -56,14 +56,14 @@ def rigid_heat(spec: Conveyor, scene: ConveyorScene) -> dict[str, float]:
     if isinstance(scene, ControlledStop):
         speeds = np.zeros_like(times)  # the brakes close at standstill
     else:
-        forces = [np.array([braking(spec, one).at(float(now)) for now in times]) for one in acting.values()]
+        forces = [braking(spec, one).over(times) for one in acting.values()]
         whole = line.static_resistance + line.tail_pull + sum(forces, np.zeros_like(times))
         lost = np.concatenate([[0.0], np.cumsum(whole[1:] + whole[:-1])]) * times[1] / 2
         speeds = np.maximum(line.speed - lost / moving_mass(line), 0.0)
     heats = {}
     for name, brake in acting.items():
-        at_shaft = braking_at_shaft(spec, brake)
-        heats[of(BRAKE_HEAT, name)] = float(np.trapezoid([at_shaft.at(float(now)) for now in times] * speeds, times))
+        force = braking_at_shaft(spec, brake).over(times)
+        heats[of(BRAKE_HEAT, name)] = float(np.trapezoid(force * speeds, times))
     return with_power(spec, heats)
 
 

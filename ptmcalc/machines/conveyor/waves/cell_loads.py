@@ -234,7 +234,7 @@ def _of_brakes(found: OneGrid, case: Moving, drawn: Drawn) -> None:
     spec, heats = case.spec, {}
     for name, brake in brakes_of(spec, case.scene).items():
         drums = (drawn.head if brake.at == "head" else drawn.tail).drums
-        force = np.array([braking_at_shaft(spec, brake).at(time) for time in drawn.times.tolist()])
+        force = braking_at_shaft(spec, brake).over(drawn.times)
         heats[of(BRAKE_HEAT, name)] = float(np.trapezoid(force * np.abs(drums[:, -1]), drawn.times))
     found.values.update({name: (heat, {}) for name, heat in with_power(spec, heats).items()})
 
