@@ -16,8 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ptmcalc.base.memory import remembered
+
 FloatArray = NDArray[np.float64]
 
+_ROWS = 16
+"""Rows whose modes are remembered; a numerical choice. Each takes a megabyte; fewer repeat the work of a search."""
 _TAIL = 0.5
 """Part of the mass in sum_k psi_k^2/w_k^2 that is left behind the n-th of the modes of a uniform belt, times n: 2/pi^2
 at its held end, with a margin for belts that are not uniform."""
@@ -89,6 +93,15 @@ def swings(row: Row) -> Swings:
     by Schwarz's inequality, as those of a uniform belt.
     **Source** module docstring; derived.
     """
+    arrays = tuple(one.tobytes() for one in (row.masses, row.compliances, row.speeds, row.pulls))
+    return _known(arrays, row.held, row.rate_energy, row.cut, row.tie)
+
+
+@remembered(_ROWS)
+def _known(arrays: tuple[bytes, ...], held: tuple[int, ...], energy: float, cut: int, tie: float) -> Swings:
+    """The same of a row whose arrays are given as bytes: a search asks for many machines whose belts move alike."""
+    masses, compliances, speeds, pulls = map(np.frombuffer, arrays)
+    row = Row(masses, compliances, speeds, pulls, held, energy, cut, tie)
     free = np.setdiff1d(np.arange(len(row.masses)), np.mod(row.held, len(row.masses)))
     if row.cut:
         return _swings_of_cut(row, free)
