@@ -36,9 +36,6 @@ _FALL = frozenset({*LOWEST, "belt_safety_min", "slip_reserve_min", "starting_res
 MODES = 256
 """Maximum number of springs of a belt whose modes are computed. A numerical choice: time grows with its cube. A smaller
 number takes the modes of a coarser grid."""
-MODES_SECONDS = 0.04
-"""Seconds that the modes of a belt after its start take; measured with `cell_runs._SECONDS`. A wrong value changes how
-many values a search tries."""
 AT_SPEED = 0.99
 """Speed of a pulley relative to that of steady running [1] from which on it counts as reached. An engineering choice. A
 larger value reports more starts as unfinished."""

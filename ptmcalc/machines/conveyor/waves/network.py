@@ -21,7 +21,7 @@ from ptmcalc.machines.conveyor.plain_start import delay_lines_do
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Start
 from ptmcalc.machines.conveyor.start_case import start_case
 from ptmcalc.machines.conveyor.waves import deep_sag, start_enclosure, start_intervals, tail_pulley, takeup_stops
-from ptmcalc.machines.conveyor.waves.after_start import MODES, MODES_SECONDS, Ending, ending, still_to_come
+from ptmcalc.machines.conveyor.waves.after_start import MODES, Ending, ending, still_to_come
 from ptmcalc.machines.conveyor.waves.cell_histories import events_of, findings_of, histories
 from ptmcalc.machines.conveyor.waves.cell_runs import (
     CellRun,
@@ -80,7 +80,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     return Result(
         loads,
         work=sum(part.work for part in runs),
-        spent=spent_seconds(case, carried, runs) + (MODES_SECONDS if end else 0.0),
+        spent=spent_seconds(case, carried, runs),
         window=(0.0, float(drawn.times[-1])),
         health={"energy_residual": drawn.energy_residual, "cells": ready.course.cells},
         findings=tuple(findings),
