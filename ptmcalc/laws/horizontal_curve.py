@@ -33,7 +33,9 @@ FloatArray = NDArray[np.float64]
 
 RULES = ("part_2", "ribbon", "part_1")
 """The rules of the balance; the first one is the middle one."""
-_HALVINGS = 60  # bisections: 1e-18 of the width, below the rounding of the balance
+_CLOSE, _ROUNDS = 1e-12, 100
+"""Change of a root relative to the width at which a search ends, and its most rounds; numerical choices. A larger
+change is less exact; fewer rounds may end before it."""
 
 
 def inward_force(tension: float, line_mass: float, speed: float, radius: float) -> float:
@@ -150,13 +152,23 @@ def drift(
         return total
 
     low, high = -(width + middle) / 2, (width + middle) / 2
-    if unbalance(low) > 0:
+    at_low, at_high = unbalance(low), unbalance(high)
+    if at_low > 0:
         return low
-    if unbalance(high) < 0:
+    if at_high < 0:
         return high
-    for _ in range(_HALVINGS):
-        half = (low + high) / 2
-        low, high = (half, high) if unbalance(half) < 0 else (low, half)
+    side, last = 0, high
+    for _ in range(_ROUNDS):  # false position, whose end that stays is taken at half its value (Illinois)
+        y = (low * at_high - high * at_low) / (at_high - at_low) if at_high > at_low else (low + high) / 2
+        found = unbalance(y)
+        if abs(y - last) <= _CLOSE * width or found == 0:
+            return y
+        last = y
+        if found < 0:
+            low, at_low, at_high = y, found, at_high / 2 if side < 0 else at_high
+        else:
+            high, at_high, at_low = y, found, at_low / 2 if side > 0 else at_low
+        side = -1 if found < 0 else 1
     return (low + high) / 2
 
 
