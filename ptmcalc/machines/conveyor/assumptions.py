@@ -119,6 +119,9 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
     ),
 )
 
+_DEAD_BAND = 0.1
+"""Dead band of a winch relative to its tension [1]: the upper end of 5 to 10 % of manufacturers. A larger value widens
+the error bars."""
 _LOST = 0.03
 """Power that motors and converters without brake resistor lose, relative to that of the braking motors [1]. An
 engineering choice on the safe side: manufacturers state 5 to 20 %. A larger value passes faster stops."""
@@ -142,6 +145,10 @@ tension there. A smaller value widens the error bars."""
 
 def _stops(spec: Conveyor) -> bool:
     return any(isinstance(scene, Stopping) for scene in spec.all_scenes)
+
+
+def _dead_band(spec: Conveyor) -> float:
+    return _DEAD_BAND if spec.takeup.dead_band is None else spec.takeup.dead_band
 
 
 def _lowers(spec: Conveyor) -> bool:
@@ -232,14 +239,6 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         Use(loads=frozenset({"backstop_torque"})),
     ),
     Assumption(
-        ("checks", "braking_power"),
-        units.POWER,
-        lambda spec: _LOST * _braking_power(spec) if _lowers(spec) else None,
-        lambda spec: Interval(_LOST * _braking_power(spec), _braking_power(spec)),
-        "without brake resistor or feedback 3 % of the motors' power, lost in motor and converter; with them all of it",
-        Use(loads=frozenset({BRAKING_POWER})),
-    ),
-    Assumption(
         ("takeup", "mass"),
         units.MASS,
         _weight,
@@ -250,8 +249,8 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         ("takeup", "deviation"),
         units.RATIO,
         lambda spec: 0.0 if spec.takeup.type == "winch" else None,
-        lambda spec: Interval(-spec.takeup.dead_band, spec.takeup.dead_band),
-        "automatic winches stand still within 5 to 10 % of their tension; `dead_band`, 10 % where the file gives none",
+        lambda spec: Interval(-_dead_band(spec), _dead_band(spec)),
+        "automatic winches do not act within 5 to 10 % of their tension; `dead_band`, 10 % where the file gives none",
     ),
     Assumption(
         ("takeup", "permanent_elongation"),
@@ -268,6 +267,15 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         lambda spec: Interval(_SMALLER_TAIL * spec.main_drive.drum.diameter, spec.main_drive.drum.diameter),
         "equal to the drive pulley, or the next smaller pulley of the series",
     ),
+)
+
+_OF_THE_CONVERTERS: Assumption[Conveyor] = Assumption(
+    ("checks", "braking_power"),
+    units.POWER,
+    lambda spec: _LOST * _braking_power(spec) if _lowers(spec) else None,
+    lambda spec: Interval(_LOST * _braking_power(spec), _braking_power(spec)),
+    "without brake resistor or feedback 3 % of the motors' power, lost in motor and converter; with them all of it",
+    Use(loads=frozenset({BRAKING_POWER})),
 )
 
 _OF_THE_TAIL: tuple[Assumption[Conveyor], ...] = (
@@ -414,6 +422,7 @@ def assumptions(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
     yield from _rubbing(spec)
     for name, drive in spec.all_drives.items():
         yield from _of_a_drive(spec.drive_path(name), drive)
+    yield _OF_THE_CONVERTERS  # by the motors of the drives
     yield from _OF_THE_TAIL
 
 

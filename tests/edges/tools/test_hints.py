@@ -101,7 +101,7 @@ def test_an_example_is_of_that_very_key(change: tuple[str, str], code: str, hint
 
 
 WORDS = [
-    ("conveyor", "s-curve", "did you mean `shape: cosine` under `scenes.profile`?"),
+    ("conveyor", "s-curve", "did you mean `shape: cosine` under `scenes`, or under `scenes.profile`?"),
     ("conveyor", "travel", "did you mean `stroke` under `takeup`?"),
     ("conveyor", "VFD", "did you mean `profile` under `scenes`?"),
     ("conveyor", "fluid coupling", "did you mean `fluid_coupling` under `drive`, or under `drives`?"),

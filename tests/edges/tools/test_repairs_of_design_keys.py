@@ -14,7 +14,8 @@ from ptmcalc.spec.shape import keys_of, measure_of
 _STATES = re.compile(r"(^|_)(rating|limit|wait|window|permitted|allowed|irregularity)(_|$)")
 _DEVICES = {"torque_limit", "window_factor", "dynamic_load_rating"}
 """The limit that a converter keeps, what is asked of the computation, and the size of a bearing."""
-_DUTIES = {"cycle_time"}
+_DUTIES = {"cycle_time", "braking_power", "belt_drift"}
+"""Duties, and limits that are assumed where a file leaves them out."""
 
 
 @pytest.mark.parametrize("kind", TYPES.values(), ids=TYPES)

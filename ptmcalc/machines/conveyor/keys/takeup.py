@@ -36,8 +36,8 @@ class TakeUp(Fragment):
     """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
     stroke: Annotated[PositiveLength | None, Checked(), Also("travel")] = None
     """available take-up travel; needed to check it"""
-    dead_band: Annotated[Fraction, Setting("the interval of `deviation` is that of usual winches")] = 0.1
-    """largest deviation of the tension, relative to `tension`, at which the winch stands still; 5 to 10 % is usual"""
+    dead_band: Annotated[Fraction | None, Setting("without it, `deviation` has the interval of usual winches")] = None
+    """largest deviation of the tension, relative to `tension`, at which the winch does not act; 5 to 10 % is usual"""
     deviation: Annotated[Ratio | None, Assumed()] = None
     """deviation of the tension relative to `tension` when a scene begins (winch); assumed 0 within `dead_band`"""
     permanent_elongation: Annotated[Fraction | None, Assumed()] = None

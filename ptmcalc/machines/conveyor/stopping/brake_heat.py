@@ -163,7 +163,7 @@ HEAT: Check[Conveyor, ConveyorScene] = Check(
     repair=no_repair,
     each=_heat_checks,
     what="The heat of each brake in a stop is at most the manufacturer's value.",
-    why="A brake that takes too much heat in one stop loses its friction before the belt stands still.",
+    why="A brake that takes too much heat in one stop loses its friction before the belt is at rest.",
     formula="integral of M w dt <= allowed",
     source="work of friction; the data sheet of the brake",
 )
