@@ -33,7 +33,7 @@ _FALL = frozenset({*LOWEST, "belt_safety_min", "slip_reserve_min", "starting_res
 """Families of loads that are worst when smallest."""
 
 
-MODES = 128
+MODES = 256
 """Maximum number of springs of a belt whose modes are computed. A numerical choice: time grows with its cube. A smaller
 number takes the modes of a coarser grid."""
 AT_SPEED = 0.99
