@@ -20,7 +20,7 @@ from support.machines import load_of, report_of, scene_of
 
 SEED, ALWAYS = 2611, 10
 SYNCHRONOUS, ETA = 1500 * math.pi / 30, 0.94
-COARSE, FINE = 120, 240
+MESHES = (120, 240), (400, 800)
 LATER = 1.5
 LOADS = ("tension_run_on_max", "tension_run_off_min", "tension_max", "tension_min")
 Pull = Callable[[float, float], float]
@@ -242,33 +242,36 @@ def extremes(machine: Machine, motion: Motion) -> dict[str, float]:
     return found
 
 
-def outside(index: int) -> list[str]:
-    """Loads of a machine that have no bar, or one that does not hold the finite elements."""
+def outside(index: int, *, bounded: bool) -> list[str]:
+    """Loads of a machine whose bars do not hold the finite elements, or that have none; where two coarse meshes differ
+    too much to tell, two finer ones decide."""
     machine = random_machine(index)
     scene = scene_of(report_of(data_of(machine)))
     window = load_of(scene, "tension_max").window
     assert window is not None
     end = window[1] * (1.0 if machine.stops else LATER)
-    coarse, fine = (extremes(machine, moved(machine, end, count)) for count in (COARSE, FINE))
-    size = fine["tension_max"]
-    wrong = []
-    for name, value in fine.items():
-        if len(machine.rig.drives) == 1:
-            name = name.partition("[")[0]
-        one = load_of(scene, name).estimate
-        slack = 1.5 * abs(value - coarse.get(name, coarse.get(f"{name}[d0]", value))) + 2e-3 * size
-        if not one.bounded or not one.low - slack <= value <= one.high + slack:
-            wrong.append(f"{index}: {name}: {value:.6g} not in {one}, to {slack:.3g}")
+    wrong: list[str] = []
+    for meshes in MESHES:
+        coarse, fine = (extremes(machine, moved(machine, end, count)) for count in meshes)
+        wrong = []
+        for name, value in fine.items():
+            load = name.partition("[")[0] if len(machine.rig.drives) == 1 else name
+            one = load_of(scene, load).estimate
+            slack = 1.5 * abs(value - coarse[name]) + 2e-3 * fine["tension_max"]
+            if not one.low - slack <= value <= one.high + slack or (bounded and not one.bounded):
+                wrong.append(f"{index}: {load}: {value:.6g} not in {one}, to {slack:.3g}")
+        if not wrong:
+            break
     return wrong
 
 
 @pytest.mark.parametrize("index", range(ALWAYS))
 def test_bars_hold_the_finite_elements(index: int) -> None:
-    assert outside(index) == []
+    assert outside(index, bounded=True) == []
 
 
 @pytest.mark.study
 @pytest.mark.parametrize("part", range(20))
 def test_of_two_hundred_machines_too(part: int) -> None:
     each = MACHINES // 20
-    assert [one for index in range(each * part, each * (part + 1)) for one in outside(index)] == []
+    assert [one for index in range(each * part, each * (part + 1)) for one in outside(index, bounded=False)] == []
