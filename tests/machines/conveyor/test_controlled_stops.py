@@ -129,15 +129,13 @@ def pull(name: str, speed: float, part: float) -> float:
 @cache
 def steady() -> tuple[float, dict[str, float]]:
     """Part of the rated frequency at which the belt runs at its rated speed, and the forces of the drives there."""
-    whole, rises = BOTH.resistance(), [part.length * (part.friction + part.climb) for part in BOTH.lengths()]
-    before = BOTH.tension + rises[0]
+    whole = BOTH.resistance()
 
     def forces(part: float) -> dict[str, float]:
         booster = pull("booster", BOTH.speed, part)
         return {"booster": booster, "head": pull("head", BOTH.speed, part)}
 
     part = brentq(lambda part: sum(forces(part).values()) - whole, 0.5, 1.1, xtol=1e-14)
-    assert before > 0
     return part, forces(part)
 
 
