@@ -18,6 +18,7 @@ os.environ["PYTHONDONTWRITEBYTECODE"] = ""
 sys.path.insert(0, str(Path(__file__).parent))
 
 from support.markdown import MarkdownFile
+from support.turns import later
 
 sys.dont_write_bytecode = False
 SECONDS = Path(__file__).parent / "seconds.json"
@@ -30,9 +31,16 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--store-seconds", action="store_true", help=f"write the seconds of each file to {SECONDS.name}")
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The longest files begin first: none of them is left to one process at the end."""
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """The longest files begin first: none of them is left to one process at the end. In a run of the whole, samples
+    take turns (`support.turns`); what is asked for by its path runs."""
     known = json.loads(SECONDS.read_text("utf-8")) if SECONDS.exists() else {}
+    if [Path(one).resolve() for one in config.args] == [Path(__file__).parent]:
+        others = later((item.nodeid for item in items if not item.get_closest_marker("study")), known)
+        for item in items:
+            if item.nodeid in others:
+                item.add_marker(pytest.mark.study)
     items.sort(key=lambda item: -known.get(_file(item.nodeid), 0.0))
 
 
