@@ -81,13 +81,15 @@ class Now(NamedTuple):
     arm: FloatArray | float
     gravity: tuple[FloatArray | float, ...]
     wind: tuple[FloatArray | float, ...]
+    spin: FloatArray
+    """w^2"""
     pulled: FloatArray
     """h, and the mass that is felt at the axis"""
     felt: FloatArray
     other: FloatArray
     """what acts behind the gear but the grip"""
     acceleration: FloatArray
-    field: tuple[FloatArray, ...]
+    field: tuple[FloatArray | float, ...]
     """A"""
 
 
@@ -194,18 +196,19 @@ class Leg:
             arm, turn, out, weight = self.radius(time), v, self.radius(time, 1), case.pivot.unbalance
             along = along - 2 * out * v
             across = across - self.radius(time, 2) + arm * v * v
-        pulled = along * nt + across * nr + gravity[2] * nz + length * (wt * wt + wr * wr + wz * wz)
-        pulled = pulled - self.length(time, 2)
-        felt = mass * (arm * nt) ** 2
-        other = np.zeros_like(v) + self.outer(time) + weight * gravity[0] + mass * arm * nt * pulled
+        spin = wt * wt + wr * wr + wz * wz
+        pulled = along * nt + across * nr + gravity[2] * nz + length * spin - self.length(time, 2)
+        reach = arm * nt
+        felt = mass * reach * reach
+        other = mass * reach * pulled + (weight * gravity[0] + self.outer(time))
         if axis.buffers:
             other = other + self.pressed(z)
         if axis.field is not None:
             other = other + axis.field(time, z[POSITION], v)
         acceleration = self._acceleration(time, v, felt, other)
         return Now(
-            length, self.length(time, 1), out, turn, arm, gravity, wind, pulled, felt, other, acceleration,
-            (along - arm * acceleration, across + 0 * v, gravity[2] + 0 * v),
+            length, self.length(time, 1), out, turn, arm, gravity, wind, spin, pulled, felt, other, acceleration,
+            (along - arm * acceleration, across, gravity[2]),
         )  # fmt: skip
 
     def _acceleration(self, time: FloatArray, v: FloatArray, felt: FloatArray, other: FloatArray) -> FloatArray:
@@ -222,14 +225,16 @@ class Leg:
     def rate(self, time: FloatArray, z: FloatArray) -> FloatArray:
         """z' at some times, shape (states, times)."""
         now = self.now(time, z)
-        n, w = z[N], z[W]
-        field = np.stack(now.field)
-        straight = (field * n).sum(axis=0)
-        spin = (w * w).sum(axis=0)
+        n, w, field = z[N], z[W], now.field
+        straight = field[0] * n[0] + field[1] * n[1] + field[2] * n[2]
         out = np.empty_like(z)
         out[POSITION], out[SPEED] = z[SPEED], now.acceleration
         out[N] = w
-        out[W] = (field - 2 * now.length_rate * w - straight * n) / now.length - spin * n
+        out[W] = (straight / now.length + now.spin) * -n
+        if not (isinstance(now.length_rate, float) and now.length_rate == 0):
+            out[W] -= 2 * now.length_rate / now.length * w
+        for k, one in enumerate(field):
+            out[W.start + k] += one / now.length
         if self.radius is not None:
             out[2] -= now.turn * n[1]
             out[3] += now.turn * n[0]

@@ -84,15 +84,15 @@ class Swing:
 
     def largest(self, name: str, since: float = 0.0, until: float = math.inf) -> Peak:
         """Largest value of a signal in a stretch of time; both sides of a jump count."""
-        return self._extreme(name, 1, since, until)
+        return self._extremes(name, (1,), since, until)[0]
 
     def smallest(self, name: str, since: float = 0.0, until: float = math.inf) -> Peak:
         """Smallest value of a signal in a stretch of time."""
-        return self._extreme(name, -1, since, until)
+        return self._extremes(name, (-1,), since, until)[0]
 
     def farthest(self, name: str, since: float = 0.0, until: float = math.inf) -> Peak:
         """Largest magnitude of a signal in a stretch of time, with its sign."""
-        top, bottom = self.largest(name, since, until), self.smallest(name, since, until)
+        top, bottom = self._extremes(name, (1, -1), since, until)
         return top if top.value >= -bottom.value else bottom
 
     def crossing(self, name: str, level: float, since: float = 0.0, rising: bool = True) -> Peak | None:
@@ -135,14 +135,13 @@ class Swing:
         residual = max(abs(float(total.sum()) - change) - unseen, 0.0) / scale
         return Works(dict(zip(WORKS, total.tolist(), strict=True)), change, residual)
 
-    def _extreme(self, name: str, sign: int, since: float, until: float) -> Peak:
+    def _extremes(self, name: str, signs: tuple[int, ...], since: float, until: float) -> list[Peak]:
         until = min(until, self.end)
-        values = []
-        for track in (self._fine, self._coarse):
-            value, time, size = track.extreme(name, sign, since, min(until, track.steps[-1].end))
-            values.append((track.polished(name, value, time, since, until), time, size))
-        (one, time, size), (two, _, _) = values
-        return Peak(one, time, abs(one - two) + _DUST * size)
+        runs, size = [], 0.0
+        for track in (self._coarse, self._fine):
+            found, size = track.extremes(name, signs, since, min(until, track.steps[-1].end))
+            runs.append([(track.polished(name, value, time, since, until), time) for value, time in found])
+        return [Peak(one, time, abs(one - two) + _DUST * size) for (two, _), (one, time) in zip(*runs, strict=True)]
 
 
 def _spread(steps: list[Step], places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ptmcalc.numerics import panels
 from ptmcalc.numerics.collocation import integrals
-from ptmcalc.numerics.extremes import Extremes
+from ptmcalc.numerics.extremes import Extremes, reach_of
 from ptmcalc.numerics.pendulum.equations import Leg
 from ptmcalc.numerics.record import Event
 
@@ -62,11 +62,22 @@ def _basis(order: int) -> FloatArray:
     return integrals(order, PLACES)
 
 
+def _bases(order: int, share: FloatArray) -> FloatArray:
+    """`integrals` at shares of steps, shape (steps, shares, order); those at the places of all panels are known."""
+    if share.shape[1] != len(PLACES):
+        return integrals(order, share)
+    known = (share == PLACES).all(axis=1)
+    bases = np.empty((*share.shape, order))
+    bases[known] = _basis(order)
+    bases[~known] = integrals(order, share[~known])
+    return bases
+
+
 def states_of(steps: Sequence[Step], share: FloatArray) -> FloatArray:
     """States at shares of each of several steps, shape (states, steps * shares): all at once, as there are many."""
     rows, began = np.stack([step.row for step in steps]), np.stack([step.state for step in steps])
     length = np.array([step.length for step in steps])[:, None, None]
-    moved = rows @ integrals(rows.shape[2], share).swapaxes(1, 2)
+    moved = rows @ _bases(rows.shape[2], share).swapaxes(1, 2)
     return np.concatenate(began[:, :, None] + length * moved, axis=1)
 
 
@@ -116,9 +127,12 @@ class Track:
             result[:, inside] = steps[0].leg.signals(names, times[inside], states)
         return result
 
-    def extreme(self, name: str, sign: int, since: float, until: float) -> tuple[float, float, float]:
-        """Value, time, and the largest magnitude met."""
-        found, size = Extremes.of(1, sign), 0.0
+    def extremes(
+        self, name: str, signs: tuple[int, ...], since: float, until: float
+    ) -> tuple[list[tuple[float, float]], float]:
+        """Largest value (sign 1) or smallest value (sign -1) with its time, for each sign, and the largest magnitude
+        met."""
+        found, size = [Extremes.of(1, sign) for sign in signs], 0.0
         for leg, steps in self.runs(since, until):
             inside = [step for step in steps if min(until, step.end) >= max(since, step.start)]
             if not inside:
@@ -127,14 +141,19 @@ class Track:
             low, high = np.maximum(since, begin), np.minimum(until, begin + used * length)
             passed = (low - begin)[:, None] + (high - low)[:, None] * PLACES
             share = np.clip(passed / np.where(length > 0, length, math.inf)[:, None], 0.0, used[:, None])
+            share[(used == 1) & (low == begin) & (high == begin + length) & (length > 0)] = PLACES
             times = low[:, None] + (high - low)[:, None] * PLACES
             values = leg.signals((name,), times.ravel(), states_of(inside, share))[0]
             size = max(size, float(np.abs(values).max()))
             span = (high - low) / HALVES
-            starts = low[:, None] + span[:, None] * np.arange(HALVES)
-            found.see(starts.ravel(), np.repeat(span, HALVES), values.reshape(-1, panels.COUNT, 1))
-        found.settle()
-        return float(found.values[0]), float(found.at[0]), size
+            starts = (low[:, None] + span[:, None] * np.arange(HALVES)).ravel()
+            watch, spans = values.reshape(-1, panels.COUNT, 1), np.repeat(span, HALVES)
+            reach = reach_of(watch)
+            for one in found:
+                one.see(starts, spans, watch, reach=reach)
+        for one in found:
+            one.settle()
+        return [(float(one.values[0]), float(one.at[0])) for one in found], size
 
     def crossing(self, name: str, level: float, since: float, rising: bool) -> float | None:
         """The first time from `since` on at which a signal goes through a level, or None."""
