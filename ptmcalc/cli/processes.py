@@ -18,13 +18,13 @@ from pathlib import Path
 from types import TracebackType
 
 from ptmcalc import machines
+from ptmcalc.cli.start import THREADS
 from ptmcalc.engine.files import files_below, machine_in
 from ptmcalc.text.source import beginning_of
 
 _LONGEST_PLACE = 60
 """Bytes of the name of the temporary folder in which a server of forks finds room for its socket: a name of a socket
 has at most 92 to 108, by system."""
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _LOOKED_AT, _PEEK = 200, 1 << 12
 """Files, and bytes of each, that are looked at to see what machines there are."""
 
@@ -50,7 +50,7 @@ def pool(jobs: int, kinds: Iterable[str]) -> Callable[[], Executor]:
 
 
 def _context(kinds: Iterable[str]) -> BaseContext:
-    for name in _THREADS:
+    for name in THREADS:
         os.environ.setdefault(name, "1")
     short = len(os.fsencode(tempfile.gettempdir())) <= _LONGEST_PLACE
     if not (short and "forkserver" in multiprocessing.get_all_start_methods()):

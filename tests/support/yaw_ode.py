@@ -34,10 +34,16 @@ def turned(
         fades = min(rate / (_FADES * speed), 1.0) if cushion.kind == "constant" else 1.0
         return fades * cushion.force(way, rate**2) / 2
 
+    (per_00, per_01), (per_10, per_11) = inverse.tolist()
+    share_0, share_1 = share.tolist()
+    hangs, swings = load[0], load[2]
+
     def rates(t: float, y: Any) -> Any:
-        lean = load[2] * (y[2] - share @ y[:2])
-        force = [pushes[i] + share[i] * load[0] * lean - of_rail(y[i], y[i + 3]) for i in (0, 1)]
-        return [*y[3:], *(inverse @ force), -lean]
+        y_0, y_1, y_2, v_0, v_1, v_2 = y.tolist()  # plain numbers: the arrays would take most of the time
+        lean = swings * (y_2 - share_0 * y_0 - share_1 * y_1)
+        force_0 = pushes[0] + share_0 * hangs * lean - of_rail(y_0, v_0)
+        force_1 = pushes[1] + share_1 * hangs * lean - of_rail(y_1, v_1)
+        return v_0, v_1, v_2, per_00 * force_0 + per_01 * force_1, per_10 * force_0 + per_11 * force_1, -lean
 
     def stands(t: float, y: Any) -> float:
         return float(max(y[3], y[4])) - slow
