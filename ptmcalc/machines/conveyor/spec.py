@@ -9,12 +9,13 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.drive import Gear
 from ptmcalc.components.motor import AnyMotor
-from ptmcalc.components.plate_motor import PlateMotor, gives_curve
+from ptmcalc.components.plate_motor import gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
 from ptmcalc.components.starting_gear import AnyStarter, Converter, FluidCoupling, gear_without_curve
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
+from ptmcalc.machines.conveyor.keys.motor import ConveyorMotor
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
 from ptmcalc.machines.conveyor.keys.route import Route
 from ptmcalc.machines.conveyor.keys.takeup import TakeUp
@@ -41,7 +42,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 from ptmcalc.spec.shape import Also
 
@@ -85,7 +86,7 @@ class DriveDrum(Fragment):
 class Drive(Fragment):
     """Motors, gear and pulley at the head."""
 
-    motor: PlateMotor
+    motor: ConveyorMotor
     """the motors"""
     coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
@@ -378,6 +379,8 @@ class Conveyor(MachineSpec):
     """motors, gear and pulley at the head; or give `drives`"""
     drives: Annotated[dict[str, PlacedDrive], Field(min_length=1, max_length=8)] | None = None
     """several drives by name, instead of `drive`"""
+    starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
+    """starts per hour of the conveyor; compared with the permitted starts of the motors"""
     brakes: dict[str, Brake] = Field(default_factory=dict, max_length=50)
     """brakes by name"""
     backstop: Annotated[Backstop | None, Also("holdback")] = None
