@@ -455,6 +455,14 @@ def _of_a_drive(path: KeyPath, drive: Drive) -> Iterator[Assumption[Conveyor]]:
             "losses of cage motors by IEC 60034-2-1: a quarter to half in iron, friction and magnetising current",
             Use(frozenset({Start}), frozenset({PERMITTED.name})),
         )
+    if drive.converter is not None and drive.converter.follows is not None:
+        yield Assumption(
+            (*path, "converter", "deviation"),
+            units.SHARE,
+            lambda spec: 0.0,
+            lambda spec: Interval(-0.05, 0.05),
+            "torque control of converters without speed encoder: 2 to 5 %; an engineering choice",
+        )
     if drive.drum.tolerance is not None:
         most = drive.drum.tolerance
         yield Assumption(

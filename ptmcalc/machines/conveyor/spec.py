@@ -12,9 +12,10 @@ from ptmcalc.components.motor import AnyMotor
 from ptmcalc.components.plate_motor import gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
-from ptmcalc.components.starting_gear import AnyStarter, Converter, FluidCoupling, gear_without_curve
+from ptmcalc.components.starting_gear import AnyStarter, FluidCoupling, gear_without_curve
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
+from ptmcalc.machines.conveyor.keys.converter import DriveConverter, follows_wrongly, linked
 from ptmcalc.machines.conveyor.keys.motor import ConveyorMotor
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
 from ptmcalc.machines.conveyor.keys.route import Route
@@ -98,15 +99,20 @@ class Drive(Fragment):
     """starter of a cage motor: `star_delta` or `soft`; switched on directly when left out"""
     fluid_coupling: FluidCoupling | None = None
     """fluid coupling between each motor and the gear"""
-    converter: Converter | None = None
-    """frequency converter of each motor: droop and torque limit; starts with a `profile` of the speed and controlled
-    stops need none without them"""
+    converter: DriveConverter | None = None
+    """frequency converter of each motor: droop and torque limit, or the drive whose torque it follows; starts with a
+    `profile` of the speed and controlled stops need none without them"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Starter, fluid coupling and converter belong to a cage motor."""
         yield from super().conflicts(given)
         yield from gear_without_curve(given)
+
+    @property
+    def turns(self) -> float:
+        """Turn of the motor shaft per travel of the belt, i/R with the diameter as it is [rad/m]."""
+        return self.gear.ratio / ((self.drum.diameter + (self.drum.deviation or 0.0)) / 2)
 
     @property
     def running_curve(self) -> AnyMotor | None:
@@ -131,7 +137,7 @@ class Drive(Fragment):
         if self.fluid_coupling is not None and (curve := self.start_curve) is not None:
             return self.motor.mean_of(curve)
         if self.converter is not None and (rated := self.motor.rated_torque) is not None:
-            return self.converter.torque_limit * rated
+            return self.converter.largest(rated)
         return self.motor.mean_torque
 
 
@@ -403,6 +409,7 @@ class Conveyor(MachineSpec):
         yield from super().conflicts(given)
         yield from exactly_one(given, "drive", "drives")
         yield from names_of_parts(given, "drives", "brakes")
+        yield from follows_wrongly(given)
         yield from _without_curves(given)
         yield from _stalled_without_curves(given)
         drives = given.raw.get("drives")
@@ -438,7 +445,7 @@ class Conveyor(MachineSpec):
     def all_drives(self) -> dict[str, PlacedDrive]:
         """Every drive by its name; a single one is called `head`."""
         if self.drives is not None:
-            return self.drives
+            return _with_leaders(self.drives)
         assert self.drive is not None
         return _at_the_head(self.drive)
 
@@ -587,6 +594,9 @@ def _whole_length(route: Given) -> float | None:
         return route.number("length")
     parts = [part.number("length") if part else None for part in route.blocks("sections")]
     return sum(part for part in parts if part is not None) if None not in parts else None
+
+
+_with_leaders = kept_for(64)(linked)
 
 
 @kept_for(64)

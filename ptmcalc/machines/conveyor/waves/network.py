@@ -13,6 +13,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Failure, Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.conveyor.keys.converter import leaders
 from ptmcalc.machines.conveyor.load_sharing import steady_motor_speeds
 from ptmcalc.machines.conveyor.loads import DRIVE, DRIVE_OF_STOP, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import belt_line, turns
@@ -102,10 +103,22 @@ def _ending(case: Moving, runs: Sequence[CellRun], slipping: bool) -> Ending | N
     statics = [line.static(which, at / line.strand(which).length) for which, at in zip((0, 1), middles, strict=True)]
     slowest = min(run.drawn.head[-1].belt, *run.drawn.head[-1].drums)
     end = ending(_goal(case), slowest, slipping, replace(row, pulls=row.pulls - np.concatenate(statics)), course.tail)
+    if not end.state and _floats(case):
+        state = f"belt at {slowest:.3g} m/s, the head pulley follows the torque of a drive at the tail"
+        return replace(end, row=None, state=state)
     if end.state or run.ready.travel is None or not (run.ready.head.imposes and run.ready.tail.imposes):
         return end
     shifts = f"belt at {slowest:.3g} m/s, the load share of the drives at head and tail still changes"
     return replace(end, drifts=True, state=shifts)
+
+
+def _floats(case: Moving) -> bool:
+    """Whether the drives at the head follow the torque of drives at the tail: nothing then holds their speed, and no
+    bound is known of what follows a start."""
+    drives = case.spec.all_drives
+    followed = leaders(drives)
+    at_head = [followed.get(name, name) for name, drive in drives.items() if drive.at == "head"]
+    return bool(case.curves) and all(drives[name].at == "tail" for name in at_head)
 
 
 def _goal(case: Moving) -> float:
