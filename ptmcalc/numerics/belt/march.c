@@ -1,7 +1,7 @@
 /* Steps of a belt in cells: nodes with friction, sag and rubber; stations with drums and take-up; what runs along.
 
    The equations, their range, error and source stand in the docstrings of the modules beside this file: march.py,
-   give.py, station.py, friction_step.py and travel.py. library.py has the same structs in the same order.
+   give.py, station.py, friction_step.py and travel.py. compiled.py has the same structs in the same order.
 
    Forces in N, speeds in m/s, times in s, places in m, impedances and drags in N*s/m. Node i lies between the cells i
    and i + 1. Nothing here allocates memory or prints; the caller owns all arrays. */
@@ -20,7 +20,7 @@
 #define SOURCE ""
 #endif
 
-/* Why a step failed: the values of FAULTS in library.py. */
+/* Why a step failed: the values of FAULTS in compiled.py. */
 enum { FINE, NO_TENSION, ALTERNATES, NO_MASS, TOO_STEEP, RAISED, OFF_THE_GRID, NOT_FINITE };
 
 /* Why a march ended before its window. */

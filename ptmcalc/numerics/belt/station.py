@@ -24,9 +24,9 @@ from typing import NamedTuple, overload
 
 import numpy as np
 
-from ptmcalc.numerics.belt import library as compiled
+from ptmcalc.numerics.belt import compiled
+from ptmcalc.numerics.belt.compiled import Laws, OverTime, address, check, library
 from ptmcalc.numerics.belt.course import FloatArray
-from ptmcalc.numerics.belt.library import Laws, OverTime, address, check, library
 
 Torque = Callable[[float, float], tuple[float, float]]
 """Force of a drive at the rim by time [s] and rim speed [m/s]: the force [N] and its slope over the speed [N*s/m]."""

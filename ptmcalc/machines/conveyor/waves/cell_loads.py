@@ -33,7 +33,7 @@ from ptmcalc.machines.conveyor.takeup.travel import moved
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.machines.conveyor.waves.takeup_stops import sinking
 from ptmcalc.numerics import peaks
-from ptmcalc.numerics.belt.library import forces
+from ptmcalc.numerics.belt.compiled import forces
 from ptmcalc.numerics.belt.march import Drawn
 from ptmcalc.numerics.belt.station import Station, Track
 

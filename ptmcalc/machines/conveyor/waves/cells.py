@@ -17,9 +17,9 @@ from ptmcalc.machines.conveyor.keys.converter import leaders
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_force, drive_masses
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Jam, Start
+from ptmcalc.numerics.belt.compiled import OverTime
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber
-from ptmcalc.numerics.belt.library import OverTime
 from ptmcalc.numerics.belt.march import place_at
 from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, follow, no_brake
 from ptmcalc.numerics.belt.travel import Travel
