@@ -99,6 +99,10 @@ class Converter(Fragment):
     ] = 1.5
     """largest torque relative to the rated torque of the motor, driving and braking; 1.5 is assumed, 1.2 to 1.8"""
 
+    def largest(self, rated: float) -> float:
+        """The largest torque of a motor with a rated one [N*m]."""
+        return self.torque_limit * rated
+
     def behind(self, motor: AnyMotor) -> TableMotor:
         """The torque of a motor over its speed at the rated frequency of its converter.
 

@@ -278,3 +278,26 @@ def permissible_switching_rate(
     """
     spare = (rated_loss - running_loss) * duty + rated_loss * rest_cooling * (1 - duty)
     return max(spare, 0.0) / heat
+
+
+def load_factor(load: float, constant_share: float, rest_cooling: float) -> float:
+    """Permitted starts of a motor that runs on between its starts, relative to no-load starts of the same heat.
+
+        k_P = 2 (1 - v) (1 - p^2)/(1 - v + k_0)
+
+    Args:
+        load: p, torque of the running motor over its rated torque [1].
+        constant_share: v, part of the rated losses that the load does not change [1].
+        rest_cooling: k_0, cooling at rest over that at speed, see `REST_COOLING` [1].
+
+    Returns:
+        k_P; 0 where running alone heats as much as the rating or more [1].
+
+    **Range** many starts in the motor's time constant of heating; the no-load starts are those of a duty factor of
+    50 %, the running is continuous.
+    **Error** exact for losses that rise with the square of the torque.
+    **Source** derived: ratio of two `permissible_switching_rate` of one heat, with losses v + (1 - v) p^2 at a duty
+    factor of 100 % and v at 50 %.
+    """
+    running = permissible_switching_rate(1.0, constant_share + (1 - constant_share) * load**2, 1.0, rest_cooling, 1.0)
+    return running / permissible_switching_rate(1.0, constant_share, 0.5, rest_cooling, 1.0)

@@ -139,6 +139,20 @@ class TestSwitching:
         assert duty.permissible_switching_rate(900.0, 2000.0, 0.9, 0.33, 2e4) == 0.0
 
 
+class TestLoadFactor:
+    @pytest.mark.parametrize(("load", "constant", "cooling"), [(0.0, 0.4, 0.5), (0.6, 0.25, 0.33), (0.9, 0.5, 1.0)])
+    def test_starts_and_running_warm_as_much_as_the_rating(self, load: float, constant: float, cooling: float) -> None:
+        """No-load starts of half an hour at rest give the heat of a start; running with load leaves the rest."""
+        no_load = 50.0
+        heat = (0.5 * (1 - constant) + 0.5 * cooling) / no_load
+        starts = no_load * duty.load_factor(load, constant, cooling)
+        assert starts * heat + constant + (1 - constant) * load**2 == pytest.approx(1.0)
+
+    def test_running_at_the_rating_leaves_nothing(self) -> None:
+        assert duty.load_factor(1.0, 0.4, 0.5) == 0.0
+        assert duty.load_factor(1.3, 0.4, 0.5) == 0.0
+
+
 class TestDutyTypes:
     def test_are_those_of_the_standard(self) -> None:
         assert list(duty.DUTY_TYPES) == [f"S{number}" for number in range(1, 11)]

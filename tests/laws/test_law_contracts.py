@@ -347,6 +347,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     duty.permissible_torque: [(400.0, 0.4, 0.25, 0.0, 1.0), (400.0, 1.0, 0.25, 0.5, 0.33)],
     duty.switching_heat: [(1.3, 157.0, 1.0, 0.0, 1.2, 0.4)],
     duty.permissible_switching_rate: [(900.0, 500.0, 0.25, 0.33, 2e4), (900.0, 2500.0, 0.9, 0.33, 2e4)],
+    duty.load_factor: [(0.6, 0.4, 0.5), (1.2, 0.4, 0.5)],
     resistance.main_resistance_per_length: [(0.022, 9.81, 180.0, 15.0, 0.97)],
     resistance.length_factor: [(430.0,)],
     quotient.over: [(3.0, 2.0), (3.0, 0.0)],

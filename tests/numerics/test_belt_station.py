@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.belt.station import Drum, Place, Seen, Station, TakeUp, Torque
+from ptmcalc.numerics.belt.station import Drum, Place, Seen, Station, TakeUp, Torque, follow
 
 ON, OFF = 184e3, 72e3
 """Impedances before and behind the drums, those of BW-02 [N*s/m]."""
@@ -561,3 +561,55 @@ def test_at_a_speed_the_sticking_ones_of_three_share_by_what_they_were_asked_for
     assert seen.tensions[1] == pytest.approx(seen.tensions[2] * math.exp(0.1))
     assert first + second + third == pytest.approx(140e3)
     assert first + 2e3 * 0.3 == pytest.approx(2 * (third + 6e3 * 0.3))
+
+
+# -- a drum that follows another one --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("leads", ["the one that sticks", "the one that slips"])
+def test_a_slipping_drum_or_its_follower_has_the_force_at_the_speed_of_the_leader(leads: str) -> None:
+    """m v' = F + e S_off - S_on of the drum that sticks, m u' = F + S_off - e S_off of the one behind that slips."""
+    on, off, exponent, masses, window = 60e3, 80e3, 0.05, (4000.0, 800.0), 0.1
+
+    def law(time: float, speed: float) -> tuple[float, float]:
+        return 40e3 * (1 - speed / 6), -40e3 / 6
+
+    names = ("", "sticks") if leads == "the one that sticks" else ("slips", "")
+    drums = (
+        Drum("sticks", masses[0], law, leader=names[0]),
+        Drum("slips", masses[1], law, exponent=exponent, leader=names[1]),
+    )
+    station = Station(place(), drums)
+    follow(station)
+    last = fed(station, lambda _: on, lambda _: off, window, 2000)[-1]
+
+    def rates(time: float, state: np.ndarray) -> list[float]:
+        belt, drum = state
+        force, slack = law(time, belt if names[1] else drum)[0], off - OFF * belt
+        first = force + math.exp(exponent) * slack - on - ON * belt
+        return [first / masses[0], (force + slack - math.exp(exponent) * slack) / masses[1]]
+
+    right = ode(rates, window, (0.0, 0.0))
+    assert last.slips == (0, 1)
+    assert (last.belt, last.drums[1]) == pytest.approx(tuple(right), rel=2e-3)
+
+
+def test_a_drum_follows_one_at_another_place() -> None:
+    """Its force is that at the speed which the leader had at the last step."""
+    first = Station(place(), [Drum("first", 3000.0, lambda time, speed: (40e3 * (1 - speed / 2), -20e3))])
+    second = Station(
+        place(), [Drum("second", 500.0, lambda time, speed: (10e3 * (1 - speed / 2), -5e3), leader="first")]
+    )
+    follow(first, second)
+    step, window = 1e-4, 0.05
+    for station in (first, second):
+        station.begin(0.0, 10e3, 20e3)
+    for k in range(1, round(window / step) + 1):
+        first.advance(k * step, 10e3, 20e3, step)
+        seen = second.advance(k * step, 10e3, 20e3, step)
+
+    def rates(time: float, state: np.ndarray) -> list[float]:
+        push = 10e3 - (ON + OFF) * np.array(state)
+        return [(40e3 * (1 - state[0] / 2) + push[0]) / 3000, (10e3 * (1 - state[0] / 2) + push[1]) / 500]
+
+    assert seen.belt == pytest.approx(ode(rates, window, (0.0, 0.0))[1], rel=2e-3)

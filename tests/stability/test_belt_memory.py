@@ -14,9 +14,9 @@ SOURCE = ROOT / "ptmcalc" / "numerics" / "belt" / "march.c"
 CHECKED = """
 import hashlib, runpy, sys
 from pathlib import Path
-from ptmcalc.numerics.belt import library
-library.LIBRARY = Path(sys.argv[1])
-library.SOURCE = Path("not compared")
+from ptmcalc.numerics.belt import compiled
+compiled.LIBRARY = Path(sys.argv[1])
+compiled.SOURCE = Path("not compared")
 from ptmcalc.machines.conveyor.waves import network
 from support.machines import spec_of
 for scene in ("start", "emergency_stop", "jam"):

@@ -2,7 +2,7 @@
 
 import ctypes
 
-from ptmcalc.numerics.belt.library import check, library
+from ptmcalc.numerics.belt.compiled import check, library
 
 
 def velocity(

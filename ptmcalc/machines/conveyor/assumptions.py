@@ -28,6 +28,7 @@ from ptmcalc.machines.conveyor.spec import (
     Stop,
     Stopping,
 )
+from ptmcalc.machines.conveyor.starting.permitted_starts import PERMITTED
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
@@ -445,6 +446,23 @@ def _of_a_drive(path: KeyPath, drive: Drive) -> Iterator[Assumption[Conveyor]]:
         lambda spec: Interval(0.10 * rotor(spec), 0.25 * rotor(spec)),
         "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
     )
+    if drive.motor.no_load_starts is not None:
+        yield Assumption(
+            (*path, "motor", "constant_losses"),
+            units.RATIO,
+            lambda spec: 0.4,
+            lambda spec: Interval(0.25, 0.5),
+            "losses of cage motors by IEC 60034-2-1: a quarter to half in iron, friction and magnetising current",
+            Use(frozenset({Start}), frozenset({PERMITTED.name})),
+        )
+    if drive.converter is not None and drive.converter.follows is not None:
+        yield Assumption(
+            (*path, "converter", "deviation"),
+            units.SHARE,
+            lambda spec: 0.0,
+            lambda spec: Interval(-0.05, 0.05),
+            "torque control of converters without speed encoder: 2 to 5 %; an engineering choice",
+        )
     if drive.drum.tolerance is not None:
         most = drive.drum.tolerance
         yield Assumption(

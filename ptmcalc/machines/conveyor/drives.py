@@ -21,8 +21,8 @@ from ptmcalc.machines.conveyor.model import (
 )
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, PlacedDrive, Run, Start
+from ptmcalc.numerics.belt.compiled import forces
 from ptmcalc.numerics.belt.curve import CurveStage, MotorForce
-from ptmcalc.numerics.belt.library import forces
 
 _NEARLY, _LEAST_UP_TO = 0.98, 0.9
 """Speeds that end a start [1]; engineering choices. `_NEARLY`: relative to the speed at which the force falls to the

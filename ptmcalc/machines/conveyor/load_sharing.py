@@ -8,10 +8,14 @@ import numpy as np
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.steady_drive import FloatArray, Motors, shared_forces, steady_speed
+from ptmcalc.machines.conveyor.keys.converter import leaders
 from ptmcalc.machines.conveyor.model import BeltLine, drive_force, turns
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive
 
+_FOLLOWED = 12
+"""Rounds in which drives that follow the torque of a drive after them find its speed [1]; a numerical choice. Each
+leaves S/EA over the rated slip of the error of the round before, below a tenth; more take longer."""
 BySpeed = Callable[[FloatArray], Sequence[tuple[FloatArray, FloatArray]]]
 
 _SAME_SPEED = 1e-3
@@ -74,7 +78,8 @@ def steady_forces(spec: Conveyor, line: BeltLine) -> Mapping[str, float]:
 
     A belt under tension is faster than without, since the same mass passes every section. A pulley has the speed of
     the belt that enters it, with the tension S_i: the belt creeps on the leaving side. So the second of two equal
-    drives turns slower by F_1/EA and pulls more.
+    drives turns slower by F_1/EA and pulls more. A drive on a converter that follows the torque of another drive has
+    that torque, M_i/M_ni = r (1 + d) M_1/M_n1, whatever its own speed.
 
     Where a motor has no curve, the drives share W as their mean starting torques.
 
@@ -126,16 +131,22 @@ def _by_speed(spec: Conveyor, line: BeltLine) -> BySpeed:
     motors, resistance = motors_of(spec), line.static_resistance + line.tail_pull
     tail, head = line.run_off + line.back.rise + line.tail_force, line.run_off + resistance
 
+    followed, drives = leaders(spec.all_drives), spec.all_drives
+
     def found(speeds: FloatArray) -> list[tuple[FloatArray, FloatArray]]:
-        tensions, pulled = {"tail": np.full_like(speeds, tail), "head": np.full_like(speeds, head)}, []
-        for name in _in_order(spec):
-            at = spec.all_drives[name].at
-            entering = speeds * (1 + tensions[at] / line.stiffness)
-            force = motors[name].force(entering)
-            for place in ("tail", "head") if at == "tail" else ("head",):
-                tensions[place] = tensions[place] - force
-            pulled.append((entering, force))
-        return pulled
+        pulled: dict[str, tuple[FloatArray, FloatArray]] = {}
+        for _ in range(_FOLLOWED if followed else 1):
+            tensions, before = {"tail": np.full_like(speeds, tail), "head": np.full_like(speeds, head)}, pulled
+            pulled = {}
+            for name in _in_order(spec):
+                at, leader = drives[name].at, followed.get(name, name)
+                entering = speeds * (1 + tensions[at] / line.stiffness)
+                known = pulled.get(leader) or before.get(leader)
+                force = motors[name].force(entering if known is None or leader == name else known[0])
+                for place in ("tail", "head") if at == "tail" else ("head",):
+                    tensions[place] = tensions[place] - force
+                pulled[name] = entering, force
+        return list(pulled.values())
 
     return found
 

@@ -358,7 +358,7 @@ def drive_mass(drive: Drive, driven: bool = False, *, starts: bool = False) -> f
 
 def turns(drive: Drive) -> float:
     """Turn of the motor shaft per travel of the belt, i/R with the diameter as it is [rad/m]."""
-    return drive.gear.ratio / ((drive.drum.diameter + (drive.drum.deviation or 0.0)) / 2)
+    return drive.turns
 
 
 @kept_for(64)

@@ -1,7 +1,7 @@
 """A scene in which the belt moves: its window, and what sets it in motion or stops it over time."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -20,6 +20,7 @@ from ptmcalc.machines.conveyor.drives import (
     rigid_start,
     running,
 )
+from ptmcalc.machines.conveyor.keys.converter import leaders
 from ptmcalc.machines.conveyor.load_sharing import (
     creep_of,
     motors_of,
@@ -29,7 +30,7 @@ from ptmcalc.machines.conveyor.load_sharing import (
 )
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force
 from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, Jam, Start, Stopping
+from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, Jam, PlacedDrive, Start, Stopping
 from ptmcalc.numerics.belt.curve import MotorForce
 
 _CONTOURS = 2.0
@@ -118,8 +119,8 @@ def _controlled_stop(spec: Conveyor, scene: ControlledStop, line: BeltLine) -> M
     if _slips(spec) and motors_of(spec):
         creep, steady = creep_of(spec, line), steady_motor_speeds(spec, line)
         curves = {
-            name: lowered_by_converter(scene, drive, creep[name], line.speed, steady[name])
-            for name, drive in spec.all_drives.items()
+            name: lowered_by_converter(scene, drive, creep[first], line.speed, steady[first] * drive.turns / turns)
+            for name, drive, first, turns in _with_leaders(spec)
         }
         return Moving(spec, scene, line, pulls, None, line.speed, window, time, way, curves)
 
@@ -127,6 +128,14 @@ def _controlled_stop(spec: Conveyor, scene: ControlledStop, line: BeltLine) -> M
         return line.speed * (1 - float(start_profile.rise(scene.shape, scene.time, now)))
 
     return Moving(spec, scene, line, pulls, imposed, line.speed, window, time, way)
+
+
+def _with_leaders(spec: Conveyor) -> Iterator[tuple[str, PlacedDrive, str, float]]:
+    """Drives by name, with the drive whose torque each follows, itself in the first place, and its turns [rad/m]."""
+    followed = leaders(spec.all_drives)
+    for name, drive in spec.all_drives.items():
+        first = followed.get(name, name)
+        yield name, drive, first, spec.all_drives[first].turns
 
 
 def _slips(spec: Conveyor) -> bool:
@@ -159,7 +168,7 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
         window = rise + 4 * line.contour_time
         if on_slip_lines(spec, scene):
             creep = creep_of(spec, line)
-            curves = {name: on_converter(scene, drive, creep[name]) for name, drive in spec.all_drives.items()}
+            curves = {name: on_converter(scene, drive, creep[first]) for name, drive, first, _ in _with_leaders(spec)}
             pulls = {name: at_rest(curve) for name, curve in curves.items()}
             aborted = scene.aborted
             latest = max(drive.delay for drive in spec.all_drives.values())
@@ -176,7 +185,7 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
     pulls = {name: pull(scene, drive, rise) for name, drive in spec.all_drives.items()}
     if profile.shape == "curve":
         creep = creep_of(spec, line)
-        curves = {name: along_curve(scene, drive, creep[name]) for name, drive in spec.all_drives.items()}
+        curves = {name: along_curve(scene, drive, creep[first]) for name, drive, first, _ in _with_leaders(spec)}
         pulls = {name: at_rest(curve) for name, curve in curves.items()}
         time, way, steady = rigid_curve_start(line, curves)
         return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, steady), time, way, curves)

@@ -9,12 +9,14 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.drive import Gear
 from ptmcalc.components.motor import AnyMotor
-from ptmcalc.components.plate_motor import PlateMotor, gives_curve
+from ptmcalc.components.plate_motor import gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
-from ptmcalc.components.starting_gear import AnyStarter, Converter, FluidCoupling, gear_without_curve
+from ptmcalc.components.starting_gear import AnyStarter, FluidCoupling, gear_without_curve
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
+from ptmcalc.machines.conveyor.keys.converter import DriveConverter, follows_wrongly, linked
+from ptmcalc.machines.conveyor.keys.motor import ConveyorMotor
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
 from ptmcalc.machines.conveyor.keys.route import Route
 from ptmcalc.machines.conveyor.keys.takeup import TakeUp
@@ -41,7 +43,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 from ptmcalc.spec.shape import Also
 
@@ -85,7 +87,7 @@ class DriveDrum(Fragment):
 class Drive(Fragment):
     """Motors, gear and pulley at the head."""
 
-    motor: PlateMotor
+    motor: ConveyorMotor
     """the motors"""
     coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
@@ -97,15 +99,20 @@ class Drive(Fragment):
     """starter of a cage motor: `star_delta` or `soft`; switched on directly when left out"""
     fluid_coupling: FluidCoupling | None = None
     """fluid coupling between each motor and the gear"""
-    converter: Converter | None = None
-    """frequency converter of each motor: droop and torque limit; starts with a `profile` of the speed and controlled
-    stops need none without them"""
+    converter: DriveConverter | None = None
+    """frequency converter of each motor: droop and torque limit, or the drive whose torque it follows; starts with a
+    `profile` of the speed and controlled stops need none without them"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Starter, fluid coupling and converter belong to a cage motor."""
         yield from super().conflicts(given)
         yield from gear_without_curve(given)
+
+    @property
+    def turns(self) -> float:
+        """Turn of the motor shaft per travel of the belt, i/R with the diameter as it is [rad/m]."""
+        return self.gear.ratio / ((self.drum.diameter + (self.drum.deviation or 0.0)) / 2)
 
     @property
     def running_curve(self) -> AnyMotor | None:
@@ -130,7 +137,7 @@ class Drive(Fragment):
         if self.fluid_coupling is not None and (curve := self.start_curve) is not None:
             return self.motor.mean_of(curve)
         if self.converter is not None and (rated := self.motor.rated_torque) is not None:
-            return self.converter.torque_limit * rated
+            return self.converter.largest(rated)
         return self.motor.mean_torque
 
 
@@ -378,6 +385,8 @@ class Conveyor(MachineSpec):
     """motors, gear and pulley at the head; or give `drives`"""
     drives: Annotated[dict[str, PlacedDrive], Field(min_length=1, max_length=8)] | None = None
     """several drives by name, instead of `drive`"""
+    starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
+    """starts per hour of the conveyor; compared with the permitted starts of the motors"""
     brakes: dict[str, Brake] = Field(default_factory=dict, max_length=50)
     """brakes by name"""
     backstop: Annotated[Backstop | None, Also("holdback")] = None
@@ -400,6 +409,7 @@ class Conveyor(MachineSpec):
         yield from super().conflicts(given)
         yield from exactly_one(given, "drive", "drives")
         yield from names_of_parts(given, "drives", "brakes")
+        yield from follows_wrongly(given)
         yield from _without_curves(given)
         yield from _stalled_without_curves(given)
         drives = given.raw.get("drives")
@@ -435,7 +445,7 @@ class Conveyor(MachineSpec):
     def all_drives(self) -> dict[str, PlacedDrive]:
         """Every drive by its name; a single one is called `head`."""
         if self.drives is not None:
-            return self.drives
+            return _with_leaders(self.drives)
         assert self.drive is not None
         return _at_the_head(self.drive)
 
@@ -584,6 +594,9 @@ def _whole_length(route: Given) -> float | None:
         return route.number("length")
     parts = [part.number("length") if part else None for part in route.blocks("sections")]
     return sum(part for part in parts if part is not None) if None not in parts else None
+
+
+_with_leaders = kept_for(64)(linked)
 
 
 @kept_for(64)

@@ -22,9 +22,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.belt import library as compiled
+from ptmcalc.numerics.belt import compiled
+from ptmcalc.numerics.belt.compiled import address, check, library
 from ptmcalc.numerics.belt.course import Course, FloatArray
-from ptmcalc.numerics.belt.library import address, check, library
 
 _DAMPED = 1.0
 """Viscosity of the spans in a front over what just keeps neighbouring lumps from ringing."""

@@ -1,7 +1,7 @@
 /* Steps of a belt in cells: nodes with friction, sag and rubber; stations with drums and take-up; what runs along.
 
    The equations, their range, error and source stand in the docstrings of the modules beside this file: march.py,
-   give.py, station.py, friction_step.py and travel.py. library.py has the same structs in the same order.
+   give.py, station.py, friction_step.py and travel.py. compiled.py has the same structs in the same order.
 
    Forces in N, speeds in m/s, times in s, places in m, impedances and drags in N*s/m. Node i lies between the cells i
    and i + 1. Nothing here allocates memory or prints; the caller owns all arrays. */
@@ -20,7 +20,7 @@
 #define SOURCE ""
 #endif
 
-/* Why a step failed: the values of FAULTS in library.py. */
+/* Why a step failed: the values of FAULTS in compiled.py. */
 enum { FINE, NO_TENSION, ALTERNATES, NO_MASS, TOO_STEEP, RAISED, OFF_THE_GRID, NOT_FINITE };
 
 /* Why a march ended before its window. */
@@ -72,7 +72,7 @@ typedef struct {
     int (*asked)(double time, double speed, double *found);
 } Law;
 
-typedef struct {
+typedef struct Drum {
     double mass, grip, hold, share;
     int64_t one_way;
     Law force, brake;
@@ -80,6 +80,8 @@ typedef struct {
     double speed, slid, heat, pull;
     int64_t slipped;                       /* from here on: of the step that is being made */
     double next, first, last, rate, first_given, last_given;
+    const struct Drum *leader;             /* whose speed its force follows; `apart` at the other station */
+    int64_t apart;
 } Drum;
 
 /* A station half a step from now follows from what it was one step ago and is now. */
@@ -329,6 +331,18 @@ SHARED void belt_forces(const Law *law, int64_t count, const double *times, cons
         found[i] = on_curve(law->curve, times[i], speeds[i], &slope);
 }
 
+/* Force of a drive at its own speed, and its slope. One that follows another has that of the leader's speed: the belt's
+   as long as both go with it at one station, else the one that the leader had at the last step. */
+static double force_of(const Drum *drum, double time, double speed, double *slope, Station *s)
+{
+    const Drum *leader = drum->leader;
+    if (!leader || !(drum->apart || drum->slip || leader->slip))
+        return value_of(&drum->force, time, speed, slope, s);
+    double found = value_of(&drum->force, time, leader->speed, slope, s);
+    *slope = 0.0;
+    return found;
+}
+
 static double brake_at(Drum *drum, double time, Station *s)
 {
     double slope;
@@ -450,8 +464,8 @@ static Sums sums_of(Station *s, double time, double old, double step)
     for (int64_t j = 0; j < s->drum_count; j++) {
         Drum *drum = s->drums + j;
         double at = drum->slip ? drum->speed : old;
-        drum->last = value_of(&drum->force, time, at, &drum->rate, s);
-        drum->first = step ? value_of(&drum->force, start, at, &unused, s) : drum->last;
+        drum->last = force_of(drum, time, at, &drum->rate, s);
+        drum->first = step ? force_of(drum, start, at, &unused, s) : drum->last;
         all.pulls |= drum->last > 0;
         if (drum->slip) {
             all.grip *= grip_of(drum);
@@ -601,7 +615,7 @@ static void turn(Station *s, double time, const Move *move, double step)
             continue;
         }
         double pull = s->tensions[j] - s->tensions[j + 1];
-        value_of(&drum->force, time, was, &rate, s);
+        force_of(drum, time, was, &rate, s);
         double brakes[2] = {brake_at(drum, step ? time - step : time, s), brake_at(drum, time, s)};
         double forcing[2] = {drum->first - rate * was - (s->has_pulls ? drum->pull : pull), drum->last - rate * was - pull};
         double next = belt_velocity(was, drum->mass, -rate, brakes, forcing, step, &s->fault);
@@ -681,7 +695,7 @@ static int all_off(Station *s, double time, double speed)
 {
     double slope;
     for (int64_t j = 0; j < s->drum_count; j++)
-        if (value_of(&s->drums[j].force, time, speed, &slope, s))
+        if (force_of(s->drums + j, time, speed, &slope, s))
             return 0;
     return 1;
 }

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.belt import library as compiled
+from ptmcalc.numerics.belt import compiled
+from ptmcalc.numerics.belt.compiled import address, check, library
 from ptmcalc.numerics.belt.course import Course, FloatArray
 from ptmcalc.numerics.belt.give import Give
-from ptmcalc.numerics.belt.library import address, check, library
 from ptmcalc.numerics.belt.station import Place, Station, Track
 from ptmcalc.numerics.belt.travel import Travel
 from ptmcalc.numerics.free_waves import Row

@@ -24,9 +24,9 @@ from typing import NamedTuple, overload
 
 import numpy as np
 
-from ptmcalc.numerics.belt import library as compiled
+from ptmcalc.numerics.belt import compiled
+from ptmcalc.numerics.belt.compiled import Laws, OverTime, address, check, library
 from ptmcalc.numerics.belt.course import FloatArray
-from ptmcalc.numerics.belt.library import Laws, OverTime, address, check, library
 
 Torque = Callable[[float, float], tuple[float, float]]
 """Force of a drive at the rim by time [s] and rim speed [m/s]: the force [N] and its slope over the speed [N*s/m]."""
@@ -58,6 +58,8 @@ class Drum:
     """held by a backstop: never turns back"""
     hold: float = math.inf
     """speed of its motor at the pulley surface [m/s]: once the drum has it, the motor holds it while it is on"""
+    leader: str = ""
+    """drum whose speed its force follows instead of its own"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +143,17 @@ class Track(Sequence[Seen]):
         )  # fmt: skip
 
 
+def follow(*stations: "Station") -> None:
+    """Connect drums with those whose speed their force follows, at their own station or at another one."""
+    places = {drum.name: (one, index) for one in stations for index, drum in enumerate(one.drums)}
+    for station in stations:
+        for index, drum in enumerate(station.drums):
+            if drum.leader:
+                there, which = places[drum.leader]
+                station.turning[index].leader = compiled.address_of(there.turning[which])
+                station.turning[index].apart = int(there is not station)
+
+
 class Station:
     """Drums at one place, in the order in which the belt meets them. The steps are those of `march.c`.
 
@@ -161,8 +174,9 @@ class Station:
         self.raised = self._laws.raised
         """errors of laws that are functions"""
         self._tensions = np.zeros(max(count + 1, 2))
-        self._turning = (compiled.Drum * max(count, 1))()
-        for made, drum, share in zip(self._turning, self.drums, self.shares, strict=False):
+        self.turning = (compiled.Drum * max(count, 1))()
+        """the drums as C has them"""
+        for made, drum, share in zip(self.turning, self.drums, self.shares, strict=False):
             made.mass, made.hold, made.share, made.one_way = drum.mass, drum.hold, share, int(drum.one_way)
             made.grip = math.exp(drum.exponent) if drum.exponent is not None else math.inf
             made.force = self._laws.of_speed(None if drum.force is no_force else drum.force)
@@ -176,7 +190,7 @@ class Station:
         state.imposed, state.is_imposed = self._laws.of_time(imposed), imposed is not None
         state.hold = max((drum.hold for drum in self.drums), default=math.inf)
         state.drum_count, state.tensions = count, address(self._tensions)
-        state.drums = compiled.address_of(self._turning)
+        state.drums = compiled.address_of(self.turning)
         self.at = compiled.address_of(state)
         """where C finds it"""
 
@@ -196,7 +210,7 @@ class Station:
         return self._seen()
 
     def _seen(self) -> Seen:
-        state, turning = self.state, self._turning[: len(self.drums)]
+        state, turning = self.state, self.turning[: len(self.drums)]
         drums, slips = tuple(one.speed for one in turning), tuple(one.slip for one in turning)
         return Seen(tuple(self._tensions.tolist()), state.belt, state.leaves, drums, slips, state.creep)
 
@@ -217,12 +231,12 @@ class Station:
     @property
     def slid(self) -> list[float]:
         """Way of slip of each drum so far [m]."""
-        return [one.slid for one in self._turning[: len(self.drums)]]
+        return [one.slid for one in self.turning[: len(self.drums)]]
 
     @property
     def heat(self) -> list[float]:
         """Heat of slip of each drum so far [J]."""
-        return [one.heat for one in self._turning[: len(self.drums)]]
+        return [one.heat for one in self.turning[: len(self.drums)]]
 
     @property
     def work(self) -> float:

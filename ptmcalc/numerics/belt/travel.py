@@ -20,10 +20,10 @@ not ring. As much belt comes onto a drum as leaves it, so behind one it is faste
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.belt import library as compiled
+from ptmcalc.numerics.belt import compiled
+from ptmcalc.numerics.belt.compiled import address, library
 from ptmcalc.numerics.belt.course import Course, FloatArray
 from ptmcalc.numerics.belt.give import Give
-from ptmcalc.numerics.belt.library import address, library
 from ptmcalc.numerics.belt.station import Seen
 
 _WAY = 0.25

@@ -113,25 +113,25 @@ def _heats(spec: Conveyor, scene: Start, case: StartCase) -> dict[str, Found]:
     estimate elsewhere; the losses of gear and stator are not in it.
     **Source** power of the air gap less that of the shaft; `laws.slip_heat.slip_heat` with torques.
     """
-    if scene.profile.imposes_speed:
-        return {}
     found: dict[str, Found] = {}
-    motion = moving(spec, scene)
-    starts = case.moves and motion.rigid_time > 0
-    for name, drive in spec.all_drives.items():
-        fast = no_load_speed(drive.motor)
-        load = heated(drive)
-        if not load or fast is None:
-            continue
-        if not starts:
-            found[of(load, name)] = Found(Estimate.exact(math.inf))
-            continue
-        turns = drive.gear.ratio * 2 / drive.drum.diameter
-        times, torque, speed = _rigid(motion, name, drive)
-        heat = slip_heat.slip_heat(times, torque, np.full_like(times, fast), np.minimum(speed * turns, fast))
-        lead = float(np.abs(torque).max()) * turns * _lead(case)
-        found[of(load, name)] = Found(Estimate(heat - lead, heat - 2 * lead, heat, model=lead))
+    for name, drive in spec.all_drives.items() if not scene.profile.imposes_speed else ():
+        load, fast = heated(drive), no_load_speed(drive.motor)
+        if load and fast is not None:
+            found[of(load, name)] = Found(slip_heat_of(spec, scene, case, name, fast))
     return found
+
+
+def slip_heat_of(spec: Conveyor, scene: Start, case: StartCase, name: str, fast: float) -> Estimate:
+    """Heat of one rotor or fluid coupling of a drive whose no-load speed is known [rad/s], in one start [J]; infinite
+    where the belt does not move."""
+    motion, drive = moving(spec, scene), spec.all_drives[name]
+    if not case.moves or motion.rigid_time <= 0:
+        return Estimate.exact(math.inf)
+    turns = drive.gear.ratio * 2 / drive.drum.diameter
+    times, torque, speed = _rigid(motion, name, drive)
+    heat = slip_heat.slip_heat(times, torque, np.full_like(times, fast), np.minimum(speed * turns, fast))
+    lead = float(np.abs(torque).max()) * turns * _lead(case)
+    return Estimate(heat - lead, heat - 2 * lead, heat, model=lead)
 
 
 def _lead(case: StartCase) -> float:

@@ -18,6 +18,7 @@ from ptmcalc.machines.conveyor.plain_start import is_plain
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads, natural_frequencies, start_case, start_duration
 from ptmcalc.machines.conveyor.starting.loads import OF_STARTING, start_loads
+from ptmcalc.machines.conveyor.starting.permitted_starts import PERMITTED, permitted_starts
 from ptmcalc.machines.conveyor.tension_loads import Sides, derived_loads, slip_loads
 from ptmcalc.machines.conveyor.waves.start_enclosure import along
 
@@ -50,7 +51,8 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
         loads[of("natural_frequency", str(number))] = frequency
     window = (0.0, case.held + case.window)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
-    return Result(found | start_loads(spec, scene, case), work=1, window=window)
+    found |= start_loads(spec, scene, case) | permitted_starts(spec, scene, case)
+    return Result(found, work=1, window=window)
 
 
 def _of_the_drive(name: str, loads: dict[str, float]) -> dict[str, float]:
@@ -116,7 +118,7 @@ RIGID: Solver[Conveyor, Start] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
-    gives=OF_BELT.union(DRIVE, OF_START, OF_STARTING, PER_DRIVE),
+    gives=OF_BELT.union(DRIVE, OF_START, OF_STARTING, PER_DRIVE, {PERMITTED.name}),
     run=run,
     cost=lambda spec, scene, carried, level: 3e-3,
     source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",

@@ -15,6 +15,7 @@ from ptmcalc.machines.conveyor.starting.checks import (
     START,
 )
 from ptmcalc.machines.conveyor.starting.loads import START_LOADS, start_parts
+from ptmcalc.machines.conveyor.starting.permitted_starts import PERMITTED, STARTS, permitted_parts
 from ptmcalc.machines.conveyor.starting.rigid import RIGID
 
 LOADS = (
@@ -37,8 +38,8 @@ LOADS = (
 )
 
 STARTING: Topic[Conveyor] = Topic(
-    loads=(*LOADS, *START_LOADS),
-    parts=lambda spec: (*parts_of(LOADS, spec), *start_parts(spec)),
+    loads=(*LOADS, *START_LOADS, PERMITTED),
+    parts=lambda spec: (*parts_of(LOADS, spec), *start_parts(spec), *permitted_parts(spec)),
     solvers=(RIGID,),
-    checks=(START, MOTOR_HEAT, COUPLING_HEAT, SHARP, RESIDUAL, RESONANCE, RUN_BACK),
+    checks=(START, MOTOR_HEAT, COUPLING_HEAT, SHARP, RESIDUAL, RESONANCE, RUN_BACK, STARTS),
 )

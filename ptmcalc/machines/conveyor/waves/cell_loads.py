@@ -33,7 +33,7 @@ from ptmcalc.machines.conveyor.takeup.travel import moved
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.machines.conveyor.waves.takeup_stops import sinking
 from ptmcalc.numerics import peaks
-from ptmcalc.numerics.belt.library import forces
+from ptmcalc.numerics.belt.compiled import forces
 from ptmcalc.numerics.belt.march import Drawn
 from ptmcalc.numerics.belt.station import Station, Track
 
@@ -259,8 +259,9 @@ def _held_back(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
 def _of_converters(case: Moving, drawn: Drawn, ready: Set) -> dict[str, tuple[FloatArray, FloatArray]]:
     """Force [N] and speed [m/s] of each drive on a converter over time: its share of m v' + S_on - S_off of an imposed
     speed, F(v, t) of motors on their slip lines."""
-    found = {}
-    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
+    found, both = {}, ((ready.head, drawn.head), (ready.tail, drawn.tail))
+    turning = {drum.name: track.drums[:, index] for one, track in both for index, drum in enumerate(one.drums)}
+    for station, history in both:
         whole = history.tensions[:, 0] - history.tensions[:, -1]
         if station.imposes:
             masses = [drum.mass for drum in station.drums]
@@ -268,7 +269,8 @@ def _of_converters(case: Moving, drawn: Drawn, ready: Set) -> dict[str, tuple[Fl
         for index, drum in enumerate(station.drums):
             curve, speeds = case.curves.get(drum.name), history.drums[:, index]
             if curve is not None:
-                found[drum.name] = forces(curve, drawn.times, speeds), speeds
+                followed = turning[drum.leader] if drum.leader else speeds
+                found[drum.name] = forces(curve, drawn.times, followed), speeds
             elif station.imposes and drum.name in case.spec.all_drives:
                 found[drum.name] = station.shares[index] * whole, speeds
     return found

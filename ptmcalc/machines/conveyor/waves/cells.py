@@ -13,14 +13,15 @@ import numpy as np
 
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.brakes import Braking, brakes_of, braking
+from ptmcalc.machines.conveyor.keys.converter import leaders
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_force, drive_masses
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Jam, Start
+from ptmcalc.numerics.belt.compiled import OverTime
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber
-from ptmcalc.numerics.belt.library import OverTime
 from ptmcalc.numerics.belt.march import place_at
-from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, no_brake
+from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, follow, no_brake
 from ptmcalc.numerics.belt.travel import Travel
 
 _FAST = 1e30
@@ -106,6 +107,7 @@ def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
         _imposed(case, "tail", times),
         _shares(spec, "tail"),
     )
+    follow(head, tail)
     give = Give(course, rubber, line.stiffness) if rubber or course.sag.any() else None
     travel = Travel(course, line.stiffness, line.speed) if "moving_belt" in carried else None
     return Set(course, head, tail, tension, give, travel)
@@ -168,7 +170,7 @@ def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pu
     together = sum(forces.values(), np.zeros_like(times))
     held = np.where(together < pulled, _FAST, 0.0) if isinstance(case.scene, Start) else np.zeros_like(times)
     held[np.argmax(held == 0) :] = 0.0  # once loose they stay loose
-    step, masses = float(times[1]), drive_masses(spec, case.scene)
+    step, masses, followed = float(times[1]), drive_masses(spec, case.scene), leaders(spec.all_drives)
     drums = []
     for index, (name, drive) in enumerate(drives):
         last = index == len(drives) - 1
@@ -183,6 +185,7 @@ def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pu
                 exponent if "slip" in carried and exponent is not None and exponent < _MOST_GRIP else None,
                 one_way=backstop,
                 hold=line.speed if _holds(case, name) else math.inf,
+                leader=followed.get(name, "") if name in case.curves else "",
             )
         )
     return drums

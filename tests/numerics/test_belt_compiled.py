@@ -15,11 +15,11 @@ from scipy.optimize import brentq
 
 from ptmcalc.base.errors import NumericsError, UsageError
 from ptmcalc.components.motor import AnyMotor
-from ptmcalc.numerics.belt import library as compiled
+from ptmcalc.numerics.belt import compiled
+from ptmcalc.numerics.belt.compiled import OverTime
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.curve import MotorForce
 from ptmcalc.numerics.belt.give import Give, Rubber
-from ptmcalc.numerics.belt.library import OverTime
 from ptmcalc.numerics.belt.march import Drawn, Until, march, place_at
 from ptmcalc.numerics.belt.station import Drum, Seen, Station, TakeUp
 

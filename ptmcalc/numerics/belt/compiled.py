@@ -78,7 +78,7 @@ class Drum(ctypes.Structure):
         *_members(real="mass grip hold share", whole="one_way"),
         ("force", Law), ("brake", Law),
         *_members(whole_1="slip", real="speed slid heat pull", whole_2="slipped"),
-        *_members(real="next first last rate first_given last_given"),
+        *_members(real="next first last rate first_given last_given", array="leader", whole_3="apart"),
     )  # fmt: skip
 
 
