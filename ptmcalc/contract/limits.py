@@ -16,6 +16,8 @@ from ptmcalc.spec.scene import Scene
 
 _WIDTH = 116
 """Columns of a docstring that is set in by four in a line of 120."""
+_QUOTES = '"""'
+"""Where its first line begins."""
 
 
 class Limit:
@@ -51,8 +53,8 @@ def fixed(value: float, *, meaning: str, valid: str, source: str, error: str = "
 
 def _text(meaning: str, valid: str, error: str, source: str) -> str:
     parts = (f"**Range** {valid}", f"**Error** {error}", f"**Source** {source}")
-    return f"{_filled(meaning)}\n\n" + "\n".join(map(_filled, parts))
+    return f"{_filled(meaning, _QUOTES)}\n\n" + "\n".join(map(_filled, parts))
 
 
-def _filled(text: str) -> str:
-    return textwrap.fill(f"{text}.", _WIDTH)
+def _filled(text: str, before: str = "") -> str:
+    return textwrap.fill(f"{text}.", _WIDTH, initial_indent=before).removeprefix(before)
