@@ -8,7 +8,7 @@ from functools import partial
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.result import of
 from ptmcalc.laws import horizontal_curve
 from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST, STRANDS, states
@@ -162,7 +162,7 @@ INWARD: AnyCheck = _sides(
         limit=_limit,
         needs=no_needs,
         value=_inward,
-        blame=lambda spec, scene, loads: ("route", "sections"),
+        blame=blames("route", "sections"),
         repair=no_repair,
         quantity=units.LENGTH,
         what="The belt drifts inward in a horizontal curve by at most the distance from its edge to the end of the wing"
@@ -189,7 +189,7 @@ OUTWARD: AnyCheck = _sides(
         limit=_limit,
         needs=no_needs,
         value=_outward,
-        blame=lambda spec, scene, loads: ("route", "sections"),
+        blame=blames("route", "sections"),
         repair=no_repair,
         quantity=units.LENGTH,
         what="The belt drifts outward in a horizontal curve by at most the distance from its edge to the end of the"

@@ -7,6 +7,7 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, no_needs
+from ptmcalc.contract.limits import fixed
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import start_profile
@@ -80,16 +81,6 @@ def _blame(spec: Conveyor, scene: ControlledStop, loads: Mapping[str, Estimate])
     return time_key(spec, scene)
 
 
-def _force_limit(spec: Conveyor, scene: ControlledStop) -> Estimate:
-    """1: the available braking force reaches the required force.
-
-    **Range** motors whose braking torque is at least their mean starting torque.
-    **Error** none.
-    **Source** Newton's law.
-    """
-    return Estimate.exact(1.0)
-
-
 FORCE: Check[Conveyor, ControlledStop] = Check(
     code="CNV125",
     title="braking force reserve, controlled stop",
@@ -98,7 +89,12 @@ FORCE: Check[Conveyor, ControlledStop] = Check(
     scenes=frozenset({ControlledStop}),
     loads=(BRAKING_RESERVE,),
     sense=Sense.AT_LEAST,
-    limit=_force_limit,
+    limit=fixed(
+        1.0,
+        meaning="1: the available braking force reaches the required force",
+        valid="motors whose braking torque is at least their mean starting torque",
+        source="Newton's law",
+    ),
     needs=no_needs,
     blame=_blame,
     repair=time_key,
