@@ -176,16 +176,6 @@ WAY: Check[Hoist, Stop] = Check(
 )
 
 
-def _hard_limit(spec: Hoist, scene: Moving) -> Estimate:
-    """Factor of the file.
-
-    **Range** a file that gives it.
-    **Error** none: a chosen limit.
-    **Source** design of the structure.
-    """
-    return Estimate.exact(spec.checks.lowering_factor or math.inf)
-
-
 def _where_hard(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
     if spec.checks.lowering_factor is None:
         return ()
@@ -201,7 +191,12 @@ HARD: Check[Hoist, Moving] = Check(
     scenes=_HANGING,
     loads=("lowering_brake_factor",),
     sense=Sense.AT_MOST,
-    limit=_hard_limit,
+    limit=key(
+        "checks.lowering_factor",
+        meaning="Factor of the file",
+        valid="a file that states it",
+        source="design of the structure",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: ("motor",) if isinstance(scene, Start) else ("brake", "torque"),
     repair=lambda spec, scene: () if isinstance(scene, Start) else ("brake", "torque"),
