@@ -57,4 +57,6 @@ def _text(meaning: str, valid: str, error: str, source: str) -> str:
 
 
 def _filled(text: str, before: str = "") -> str:
-    return textwrap.fill(f"{text}.", _WIDTH, initial_indent=before).removeprefix(before)
+    whole = f"{before}{text}."
+    lines = whole if len(whole) <= _WIDTH else textwrap.fill(whole, _WIDTH)  # `fill` takes long: start-up is a feature
+    return lines.removeprefix(before)
