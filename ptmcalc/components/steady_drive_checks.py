@@ -10,6 +10,7 @@ from ptmcalc.components.motor_rating import number_at
 from ptmcalc.components.steady_drive import Motors, shared_forces, steady_reserve
 from ptmcalc.contract.check import Check, Sense, no_needs
 from ptmcalc.contract.effect import C, Criterion, S
+from ptmcalc.contract.limits import fixed
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 
@@ -103,24 +104,9 @@ def steady_solver(
     )
 
 
-def _reserve_limit(spec: Any, scene: Any) -> Estimate:
-    """The motors reach at least the resistance.
-
-    **Range** steady running.
-    **Error** none.
-    **Source** equilibrium.
-    """
-    return Estimate.exact(1.0)
-
-
-def _rated_limit(spec: Any, scene: Any) -> Estimate:
-    """The rated torque.
-
-    **Range** continuous duty.
-    **Error** none.
-    **Source** IEC 60034-1: rated output in duty type S1.
-    """
-    return Estimate.exact(1.0)
+_RATED_LIMIT = fixed(
+    1.0, meaning="The rated torque", valid="continuous duty", source="IEC 60034-1: rated output in duty type S1"
+)
 
 
 def _checked_in(kind: SteadyMotors[S, C], spec: S, scene: Any) -> bool:
@@ -160,7 +146,9 @@ def steady_reserve_check(code: str, kind: SteadyMotors[S, C]) -> Check[S, C]:
         scenes=kind.scenes,
         loads=("steady_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_reserve_limit,
+        limit=fixed(
+            1.0, meaning="The motors reach at least the resistance", valid="steady running", source="equilibrium"
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: kind.curve_key(spec, ""),
         repair=lambda spec, scene: _size_key(kind, spec),
@@ -186,7 +174,7 @@ def rated_torque_check(code: str, kind: SteadyMotors[S, C]) -> Check[S, C]:
             if one.curve.rated is None:
                 continue
             if name:
-                yield check.of(name, _rated_limit, kind.curve_key(spec, name), (), _size_key(kind, spec, name))
+                yield check.of(name, _RATED_LIMIT, kind.curve_key(spec, name), (), _size_key(kind, spec, name))
             else:
                 yield replace(check, each=None)
 
@@ -198,7 +186,7 @@ def rated_torque_check(code: str, kind: SteadyMotors[S, C]) -> Check[S, C]:
         scenes=kind.scenes,
         loads=("motor_utilisation",),
         sense=Sense.AT_MOST,
-        limit=_rated_limit,
+        limit=_RATED_LIMIT,
         needs=no_needs,
         blame=lambda spec, scene, loads: kind.curve_key(spec, ""),
         repair=lambda spec, scene: _size_key(kind, spec),

@@ -48,10 +48,11 @@ class Check(Generic[S, C]):
     limit itself is reached.
 
     `loads` are the loads that the check uses, `value` is computed from them (default: the first one), and
-    `limit` is compared with it; `needs` are the optional keys without which it is not checked. `blame` names
-    the key that governs a bad verdict, from the loads found; `repair` the key that `solve` may vary, or an empty
-    path; with `repairs_blame` it is the key that `blame` names from the loads. A check of every part of a machine gives
-    with `each` the checks of the parts, made by `of`; its own `loads` are then families.
+    `limit` is compared with it: `ptmcalc.contract.limits` has that of a key and that of a constant. `needs` are the
+    optional keys without which it is not checked. `blame` names the key that governs a bad verdict, from the loads
+    found; `repair` the key that `solve` may vary, or an empty path; with `repairs_blame` it is the key that `blame`
+    names from the loads. A check of every part of a machine gives with `each` the checks of the parts, made by `of`;
+    its own `loads` are then families.
     """
 
     code: str

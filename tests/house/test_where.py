@@ -112,7 +112,8 @@ def test_the_line_of_a_function_is_its_def(file: str, line: str, what: str) -> N
 @pytest.mark.parametrize(
     ("name", "lines"),
     [
-        ("cnv101", ("check CNV101, conveyor", "value of CNV101, _slip_value", "limit of CNV101, _slip_limit")),
+        ("cnv101", ("check CNV101, conveyor", "value of CNV101, _slip_value")),
+        ("CNV102", ("check CNV102, conveyor", "limit of CNV102, safety_limit")),
         (
             "belt_wave",
             ("effect belt_wave, conveyor", "criterion of belt_wave, wave_criterion", "bound of belt_wave, wave_bound"),

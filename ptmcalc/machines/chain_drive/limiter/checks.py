@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.chain_drive.limiter.stops import STOPS
 from ptmcalc.machines.chain_drive.limiter.trips import ACTS, limiter_of
 from ptmcalc.machines.chain_drive.model import chain_line
@@ -60,17 +61,6 @@ TRIP: Check[ChainDrive, ChainScene] = Check(
 # -- jam ------------------------------------------------------------------------------------------------------------
 
 
-def _jam_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Required ratio of breaking load to maximum tension in a jam, from the file or 3.3.
-
-    **Range** jams, which are rare.
-    **Error** none: a chosen limit.
-    **Source** manufacturers preload chains with 30 % of the breaking load (ISO 606:2004; ZMC for conveyor chains of
-    ISO 1977): links lengthen permanently above that tension.
-    """
-    return Estimate.exact(spec.checks.safety_jam)
-
-
 JAM: Check[ChainDrive, Run] = Check(
     code="CHN135",
     title="chain safety factor, jam",
@@ -79,7 +69,13 @@ JAM: Check[ChainDrive, Run] = Check(
     scenes=frozenset({Run}),
     loads=("safety_jam",),
     sense=Sense.AT_LEAST,
-    limit=_jam_limit,
+    limit=key(
+        "checks.safety_jam",
+        meaning="Required ratio of breaking load to maximum tension in a jam, from the file or 3.3",
+        valid="jams, which are rare",
+        source="manufacturers preload chains with 30 % of the breaking load (ISO 606:2004; ZMC for conveyor chains of"
+        " ISO 1977): links lengthen permanently above that tension",
+    ),
     needs=no_needs,
     blame=blames(*_TORQUE),
     repair=at(*_TORQUE),

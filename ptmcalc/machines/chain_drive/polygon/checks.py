@@ -1,11 +1,11 @@
 """Checks of the polygon effect: resonance, and what the largest and smallest tension of steady running do."""
 
-import math
 from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.chain_drive.model import tension_key
 from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON, WEAK
 from ptmcalc.machines.chain_drive.polygon.resonances import resonances
@@ -38,16 +38,6 @@ def _unless_resonant(path: Callable[[ChainDrive, Run], KeyPath]) -> Callable[[Ch
 # -- resonance ------------------------------------------------------------------------------------------------------
 
 
-def _resonance_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """The speed is outside the band of every relevant resonance.
-
-    **Range** bands of 15 % of the resonance speed by default, or twice the damping ratio if that is larger.
-    **Error** none: a chosen limit.
-    **Source** engineering rule; a resonance is relevant from a force of 0.5 m a_max.
-    """
-    return Estimate.exact(spec.checks.resonance.band)
-
-
 RESONANCE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.effects.get(POLYGON) != "off")(
     Check(
         code="CHN101",
@@ -57,7 +47,12 @@ RESONANCE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.effects.get(PO
         scenes=RUNNING,
         loads=("resonance_distance",),
         sense=Sense.AT_LEAST,
-        limit=_resonance_limit,
+        limit=key(
+            "checks.resonance.band",
+            meaning="The speed is outside the band of every relevant resonance",
+            valid="bands of 15 % of the resonance speed by default, or twice the damping ratio if that is larger",
+            source="engineering rule; a resonance is relevant from a force of 0.5 m a_max",
+        ),
         needs=no_needs,
         blame=blames(*_SPEED),
         repair=at(*_SPEED),
@@ -114,17 +109,6 @@ DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
 # -- joints ---------------------------------------------------------------------------------------------------------
 
 
-def _pressure_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Permissible bearing pressure of the link joints, given in the file.
-
-    **Range** 20 to 30 MPa is usual, less for fast chains and poor lubrication.
-    **Error** none: a chosen limit.
-    **Source** chain manufacturers' handbooks.
-    """
-    asked = spec.checks.joint_pressure
-    return Estimate.exact(math.inf if asked is None else asked)
-
-
 PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
     Check(
         code="CHN104",
@@ -134,8 +118,13 @@ PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
         scenes=RUNNING,
         loads=("joint_pressure",),
         sense=Sense.AT_MOST,
-        limit=_pressure_limit,
-        needs=lambda spec, scene: (("chain", "pin_diameter"), ("chain", "bush_length")),
+        limit=key(
+            "checks.joint_pressure",
+            meaning="Permissible bearing pressure of the link joints, given in the file",
+            valid="20 to 30 MPa is usual, less for fast chains and poor lubrication",
+            source="chain manufacturers' handbooks",
+        ),
+        needs=needs(("chain", "pin_diameter"), ("chain", "bush_length")),
         blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else ("chain", "pin_diameter"),
         repair=_unless_resonant(at("chain", "pin_diameter")),
         what="The bearing pressure between pin and bush at the maximum tension of a chain is at most the limit of the"
@@ -147,16 +136,6 @@ PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
 )
 
 # -- slack ----------------------------------------------------------------------------------------------------------
-
-
-def _slack_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Minimum tension given in the file, 0 N by default.
-
-    **Range** steady running; the ends of the strands, at drive and tail.
-    **Error** none: a chosen limit.
-    **Source** a chain carries no compression: without tension it piles up and jumps teeth.
-    """
-    return Estimate.exact(spec.checks.least_tension)
 
 
 def _tension_key(spec: ChainDrive, scene: Run) -> KeyPath:
@@ -172,7 +151,12 @@ SLACK: Check[ChainDrive, Run] = Check(
     scenes=RUNNING,
     loads=("tension_min",),
     sense=Sense.AT_LEAST,
-    limit=_slack_limit,
+    limit=key(
+        "checks.least_tension",
+        meaning="Minimum tension given in the file, 0 N by default",
+        valid="steady running; the ends of the strands, at drive and tail",
+        source="a chain carries no compression: without tension it piles up and jumps teeth",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else _tension_key(spec, scene),
     repair=_unless_resonant(_tension_key),
@@ -186,17 +170,7 @@ SLACK: Check[ChainDrive, Run] = Check(
 # -- fatigue -------------------------------------------------------------------------------------------------------
 
 
-def _fatigue_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Maximum utilisation of the permissible stress amplitude.
-
-    **Range** 1 is full utilisation.
-    **Error** none: a chosen limit.
-    **Source** Goodman's line.
-    """
-    return Estimate.exact(spec.checks.fatigue)
-
-
-FATIGUE = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
+FATIGUE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
     Check(
         code="CHN107",
         title="link plate fatigue utilisation",
@@ -205,8 +179,13 @@ FATIGUE = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
         scenes=RUNNING,
         loads=("fatigue_utilisation",),
         sense=Sense.AT_MOST,
-        limit=_fatigue_limit,
-        needs=lambda spec, scene: (("chain", "section"),),
+        limit=key(
+            "checks.fatigue",
+            meaning="Maximum utilisation of the permissible stress amplitude",
+            valid="1 is full utilisation",
+            source="Goodman's line",
+        ),
+        needs=needs(("chain", "section")),
         blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else ("chain", "section"),
         repair=no_repair,
         what="The fatigue utilisation of the link plates is at most the limit. It compares the stress amplitude of the"

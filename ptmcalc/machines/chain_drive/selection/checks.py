@@ -1,11 +1,11 @@
 """Checks of the choice of a chain: static safety, wear life, geometry, power."""
 
-import math
 from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import tail_teeth
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
@@ -56,17 +56,6 @@ STATIC_SAFETY: Check[ChainDrive, Run] = Check(
 # -- life -----------------------------------------------------------------------------------------------------------
 
 
-def _life_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Required life given in the file.
-
-    **Range** any.
-    **Error** none: a chosen limit.
-    **Source** the design's own requirement; 15 000 h is usual for drives.
-    """
-    asked = spec.checks.life
-    return Estimate.exact(math.inf if asked is None else asked)
-
-
 def _life_needs(spec: ChainDrive, scene: Run) -> tuple[KeyPath, ...]:
     needs: tuple[KeyPath, ...] = (("checks", "life"), ("wear",), ("chain", "pin_diameter"))
     by_area = spec.wear is not None and spec.wear.archard is not None
@@ -82,7 +71,12 @@ LIFE = only(lambda spec, scene: spec.checks.life is not None or spec.wear is not
         scenes=RUNNING,
         loads=("life",),
         sense=Sense.AT_LEAST,
-        limit=_life_limit,
+        limit=key(
+            "checks.life",
+            meaning="Required life given in the file",
+            valid="any",
+            source="the design's own requirement; 15 000 h is usual for drives",
+        ),
         needs=_life_needs,
         blame=lambda spec, scene, loads: (
             ("wear", "coefficient") if spec.wear is not None and spec.wear.archard is None else ("wear", "archard")
@@ -97,16 +91,6 @@ LIFE = only(lambda spec, scene: spec.checks.life is not None or spec.wear is not
 )
 
 # -- geometry -------------------------------------------------------------------------------------------------------
-
-
-def _wrap_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Minimum wrap angle of a sprocket, 120 deg by default.
-
-    **Range** drives between shafts.
-    **Error** none: a chosen limit.
-    **Source** handbooks (ACA): 120 deg.
-    """
-    return Estimate.exact(spec.checks.wrap)
 
 
 def _distance_key(spec: ChainDrive, scene: Run) -> KeyPath:
@@ -128,7 +112,12 @@ WRAP = only(_between_shafts)(
         scenes=RUNNING,
         loads=("wrap",),
         sense=Sense.AT_LEAST,
-        limit=_wrap_limit,
+        limit=key(
+            "checks.wrap",
+            meaning="Minimum wrap angle of a sprocket, 120 deg by default",
+            valid="drives between shafts",
+            source="handbooks (ACA): 120 deg",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: _distance_key(spec, scene),
         repair=_distance_repair,
@@ -178,16 +167,6 @@ TEETH: Check[ChainDrive, Run] = Check(
 )
 
 
-def _ratio_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Maximum transmission ratio, 6 by default.
-
-    **Range** drives between shafts.
-    **Error** none: a chosen limit.
-    **Source** handbooks: up to 6, 7 and more at low speed.
-    """
-    return Estimate.exact(spec.checks.ratio)
-
-
 RATIO = only(_between_shafts)(
     Check(
         code="CHN110",
@@ -197,7 +176,12 @@ RATIO = only(_between_shafts)(
         scenes=RUNNING,
         loads=("ratio",),
         sense=Sense.AT_MOST,
-        limit=_ratio_limit,
+        limit=key(
+            "checks.ratio",
+            meaning="Maximum transmission ratio, 6 by default",
+            valid="drives between shafts",
+            source="handbooks: up to 6, 7 and more at low speed",
+        ),
         needs=no_needs,
         blame=blames("layout", "driven", "teeth"),
         repair=no_repair,
@@ -210,26 +194,6 @@ RATIO = only(_between_shafts)(
 )
 
 
-def _least_distance(spec: ChainDrive, scene: Run) -> Estimate:
-    """Minimum centre distance in pitches, 30 by default.
-
-    **Range** drives between shafts.
-    **Error** none: a chosen limit.
-    **Source** handbooks: 30 to 50 pitches.
-    """
-    return Estimate.exact(spec.checks.centre_distance_least)
-
-
-def _most_distance(spec: ChainDrive, scene: Run) -> Estimate:
-    """Maximum centre distance in pitches, 80 by default.
-
-    **Range** drives between shafts with unsupported strands.
-    **Error** none: a chosen limit.
-    **Source** handbooks: 30 to 50 pitches, 80 at most.
-    """
-    return Estimate.exact(spec.checks.centre_distance_most)
-
-
 NEAR_SHAFTS = only(_between_shafts)(
     Check(
         code="CHN111",
@@ -239,7 +203,12 @@ NEAR_SHAFTS = only(_between_shafts)(
         scenes=RUNNING,
         loads=("centre_distance_pitches",),
         sense=Sense.AT_LEAST,
-        limit=_least_distance,
+        limit=key(
+            "checks.centre_distance_least",
+            meaning="Minimum centre distance in pitches, 30 by default",
+            valid="drives between shafts",
+            source="handbooks: 30 to 50 pitches",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: _distance_key(spec, scene),
         repair=_distance_repair,
@@ -259,7 +228,12 @@ FAR_SHAFTS = only(_between_shafts)(
         scenes=RUNNING,
         loads=("centre_distance_pitches",),
         sense=Sense.AT_MOST,
-        limit=_most_distance,
+        limit=key(
+            "checks.centre_distance_most",
+            meaning="Maximum centre distance in pitches, 80 by default",
+            valid="drives between shafts with unsupported strands",
+            source="handbooks: 30 to 50 pitches, 80 at most",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: _distance_key(spec, scene),
         repair=_distance_repair,
@@ -273,17 +247,6 @@ FAR_SHAFTS = only(_between_shafts)(
 # -- choice of the chain --------------------------------------------------------------------------------------------
 
 
-def _power_limit(spec: ChainDrive, scene: Run) -> Estimate:
-    """Rated power of the chain from the manufacturer's chart.
-
-    **Range** one chain on the teeth of the chart, 19 by default, at the speed of the file.
-    **Error** none: the manufacturer's figure.
-    **Source** rating charts after ISO 10823.
-    """
-    rated = spec.layout.rated_power if isinstance(spec.layout, TwoShafts) else None
-    return Estimate.exact(math.inf if rated is None else rated)
-
-
 POWER = only(lambda spec, scene: isinstance(spec.layout, TwoShafts) and spec.layout.rated_power is not None)(
     Check(
         code="CHN113",
@@ -293,7 +256,13 @@ POWER = only(lambda spec, scene: isinstance(spec.layout, TwoShafts) and spec.lay
         scenes=RUNNING,
         loads=("design_power",),
         sense=Sense.AT_MOST,
-        limit=_power_limit,
+        limit=key(
+            "layout.rated_power",
+            meaning="Rated power of the chain from the manufacturer's chart",
+            valid="one chain on the teeth of the chart, 19 by default, at the speed of the file",
+            error="none: the manufacturer's figure",
+            source="rating charts after ISO 10823",
+        ),
         needs=no_needs,
         blame=blames("layout", "rated_power"),
         repair=at("layout", "rated_power"),

@@ -1,13 +1,13 @@
 """Checks of a start: strong enough, quick enough, not too hard on the chain, no slack."""
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import number_at
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, no_needs
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import drive_of, tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
@@ -41,16 +41,6 @@ def _profile_repair(spec: ChainDrive, scene: Start) -> KeyPath:
 # -- strong enough --------------------------------------------------------------------------------------------------
 
 
-def _reserve_limit(spec: ChainDrive, scene: Start) -> Estimate:
-    """1: the drive just moves the chain.
-
-    **Range** any start.
-    **Error** none.
-    **Source** Newton's law.
-    """
-    return Estimate.exact(1.0)
-
-
 WEAK: Check[ChainDrive, Start] = Check(
     code="CHN120",
     title="starting force reserve",
@@ -59,7 +49,7 @@ WEAK: Check[ChainDrive, Start] = Check(
     scenes=frozenset({Start}),
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
-    limit=_reserve_limit,
+    limit=fixed(1.0, meaning="1: the drive just moves the chain", valid="any start", source="Newton's law"),
     needs=no_needs,
     blame=lambda spec, scene, loads: torque_key(spec),
     repair=_torque_repair,
@@ -72,16 +62,6 @@ WEAK: Check[ChainDrive, Start] = Check(
 )
 
 # -- quick enough ---------------------------------------------------------------------------------------------------
-
-
-def _time_limit(spec: ChainDrive, scene: Start) -> Estimate:
-    """Maximum starting time given in the file.
-
-    **Range** starts with a limit.
-    **Error** none: a chosen limit.
-    **Source** the motor's data sheet, or the plant's rules.
-    """
-    return Estimate.exact(spec.checks.start_time or math.inf)
 
 
 def _where_timed(spec: ChainDrive, scene: Start) -> Iterable[AnyCheck]:
@@ -97,7 +77,12 @@ SLOW: Check[ChainDrive, Start] = Check(
     scenes=frozenset({Start}),
     loads=("start_time",),
     sense=Sense.AT_MOST,
-    limit=_time_limit,
+    limit=key(
+        "checks.start_time",
+        meaning="Maximum starting time given in the file",
+        valid="starts with a limit",
+        source="the motor's data sheet, or the plant's rules",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _profile_key(spec, scene),
     repair=_profile_repair,
@@ -111,16 +96,6 @@ SLOW: Check[ChainDrive, Start] = Check(
 # -- strength -------------------------------------------------------------------------------------------------------
 
 
-def _safety_limit(spec: ChainDrive, scene: Start) -> Estimate:
-    """Required ratio of breaking load to maximum tension of a start or a stop, from the file or 5.
-
-    **Range** starts and stops, which are rare compared with tooth engagements.
-    **Error** none: a chosen limit.
-    **Source** manufacturers of conveyor chains: 5 and more for short peaks; handbooks differ.
-    """
-    return Estimate.exact(spec.checks.safety_start)
-
-
 STRENGTH: Check[ChainDrive, Start] = Check(
     code="CHN122",
     title="chain safety factor, starting",
@@ -129,10 +104,15 @@ STRENGTH: Check[ChainDrive, Start] = Check(
     scenes=frozenset({Start}),
     loads=("safety_start",),
     sense=Sense.AT_LEAST,
-    limit=_safety_limit,
+    limit=key(
+        "checks.safety_start",
+        meaning="Required ratio of breaking load to maximum tension of a start or a stop, from the file or 5",
+        valid="starts and stops, which are rare compared with tooth engagements",
+        source="manufacturers of conveyor chains: 5 and more for short peaks; handbooks differ",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _hard_start(spec, scene),
-    repair=lambda spec, scene: ("chain", "breaking_load"),
+    repair=at("chain", "breaking_load"),
     what="The breaking load is at least the safety factor times the maximum tension of the chain entering the sprocket"
     " at the start. This tension includes the static tension and the force that accelerates the chain. It also"
     " includes the oscillation of the elastic chain and the centrifugal tension of full speed.",
@@ -158,16 +138,6 @@ def _hard_start(spec: ChainDrive, scene: Start) -> KeyPath:
 # -- slack ----------------------------------------------------------------------------------------------------------
 
 
-def _slack_limit(spec: ChainDrive, scene: Start) -> Estimate:
-    """0: a chain carries no compression.
-
-    **Range** any section of both strands.
-    **Error** none.
-    **Source** a chain has no stiffness in compression.
-    """
-    return Estimate.exact(0.0)
-
-
 SLACK: Check[ChainDrive, Start] = Check(
     code="CHN123",
     title="minimum chain tension, starting",
@@ -176,7 +146,12 @@ SLACK: Check[ChainDrive, Start] = Check(
     scenes=frozenset({Start}),
     loads=("tension_min",),
     sense=Sense.AT_LEAST,
-    limit=_slack_limit,
+    limit=fixed(
+        0.0,
+        meaning="0: a chain carries no compression",
+        valid="any section of both strands",
+        source="a chain has no stiffness in compression",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: tension_key(spec),
     repair=lambda spec, scene: tension_key(spec) if isinstance(spec.layout, ConveyorLayout) else (),

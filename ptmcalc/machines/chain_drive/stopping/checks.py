@@ -7,7 +7,8 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.run_back import held_torque, rollback_check
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.spec import (
@@ -95,16 +96,6 @@ WAY: Check[ChainDrive, Stopping] = Check(
 )
 
 
-def _time_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
-    """Permissible stopping time given in the file; one hour without it, after which the chain counts as not stopping.
-
-    **Range** any stop; a coasting stop if the file gives the limit or the chain runs away.
-    **Error** none: a chosen limit.
-    **Source** the plant's rules.
-    """
-    return Estimate.exact(spec.checks.stop_time or _HOUR)
-
-
 def _where_timed(spec: ChainDrive, scene: Stopping) -> Checks:
     """Every stop; a run-out with a limit, or one that runs away."""
     held = not isinstance(scene, Coast) or spec.checks.stop_time is not None
@@ -121,7 +112,14 @@ TIME: Check[ChainDrive, Stopping] = Check(
     scenes=_STOPS,
     loads=("stop_time",),
     sense=Sense.AT_MOST,
-    limit=_time_limit,
+    limit=key(
+        "checks.stop_time",
+        meaning="Permissible stopping time given in the file; one hour without it, after which the chain counts as not"
+        " stopping",
+        valid="any stop; a coasting stop if the file gives the limit or the chain runs away",
+        source="the plant's rules",
+        absent=_HOUR,
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _brake_key(spec, scene),
     repair=_brake_repair,
@@ -171,16 +169,6 @@ TORQUE: Check[ChainDrive, Stopping] = Check(
 # -- what it does to the chain --------------------------------------------------------------------------------------
 
 
-def _slack_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
-    """0: a chain carries no compression.
-
-    **Range** any section of both strands.
-    **Error** none.
-    **Source** a chain has no stiffness in compression.
-    """
-    return Estimate.exact(0.0)
-
-
 _TENSION: KeyPath = ("layout", "takeup", "tension")
 
 
@@ -197,7 +185,12 @@ SLACK: Check[ChainDrive, Stopping] = Check(
     scenes=_STOPS,
     loads=("tension_min",),
     sense=Sense.AT_LEAST,
-    limit=_slack_limit,
+    limit=fixed(
+        0.0,
+        meaning="0: a chain carries no compression",
+        valid="any section of both strands",
+        source="a chain has no stiffness in compression",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _TENSION,
     repair=lambda spec, scene: _TENSION,
@@ -210,16 +203,6 @@ SLACK: Check[ChainDrive, Stopping] = Check(
 )
 
 
-def _safety_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
-    """Required ratio of breaking load to maximum tension of a stop or a speed change, from the file or 5.
-
-    **Range** stops and speed changes, which are rare compared with tooth engagements.
-    **Error** none: a chosen limit.
-    **Source** manufacturers of conveyor chains: 5 and more for short peaks; handbooks differ.
-    """
-    return Estimate.exact(spec.checks.safety_start)
-
-
 STRENGTH: Check[ChainDrive, ChainScene] = Check(
     code="CHN128",
     title="chain safety factor, stop or speed change",
@@ -228,10 +211,15 @@ STRENGTH: Check[ChainDrive, ChainScene] = Check(
     scenes=_STOPS | {SpeedRange},
     loads=("safety_start",),
     sense=Sense.AT_LEAST,
-    limit=_safety_limit,
+    limit=key(
+        "checks.safety_start",
+        meaning="Required ratio of breaking load to maximum tension of a stop or a speed change, from the file or 5",
+        valid="stops and speed changes, which are rare compared with tooth engagements",
+        source="manufacturers of conveyor chains: 5 and more for short peaks; handbooks differ",
+    ),
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("chain", "breaking_load"),
-    repair=lambda spec, scene: ("chain", "breaking_load"),
+    blame=blames("chain", "breaking_load"),
+    repair=at("chain", "breaking_load"),
     what="The breaking load is at least the safety factor times the maximum tension of a stop or a speed sweep. The"
     " sweep includes the resonances in its range of speeds. The tension includes the centrifugal tension of full"
     " speed.",

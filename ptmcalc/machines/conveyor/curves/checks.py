@@ -1,6 +1,5 @@
 """Checks of horizontal curves: the drift of the belt on its idlers, to the inner and to the outer side."""
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import partial
@@ -8,7 +7,8 @@ from functools import partial
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair
+from ptmcalc.contract.limits import key
 from ptmcalc.contract.result import of
 from ptmcalc.laws import horizontal_curve
 from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST, STRANDS, states
@@ -24,16 +24,15 @@ _DRIFT_KEY: KeyPath = ("checks", "belt_drift")
 _WIDTH: KeyPath = ("belt", "width")
 
 
-def _limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Distance from the edge of the belt to the end of the wing roll; by default 5 % of the belt width and 25 mm.
-
-    **Range** idlers with rolls of the standard lengths; side rolls that hold the belt at its edge are left out.
-    **Error** of the default 20 %, tried at both ends.
-    **Source** free edge of the usable width 0.9 B - 50 mm of ISO 5048:1989; wing rolls of ISO 1537 (380 mm for
-    B = 1000 mm, 465 mm for 1200 mm) are longer than the belt on them by that within 15 %.
-    """
-    given = spec.checks.belt_drift
-    return Estimate.exact(math.inf if given is None else given)
+_LIMIT = key(
+    "checks.belt_drift",
+    meaning="Distance from the edge of the belt to the end of the wing roll; by default 5 % of the belt width and"
+    " 25 mm",
+    valid="idlers with rolls of the standard lengths; side rolls that hold the belt at its edge are left out",
+    error="of the default 20 %, tried at both ends",
+    source="free edge of the usable width 0.9 B - 50 mm of ISO 5048:1989; wing rolls of ISO 1537 (380 mm for B ="
+    " 1000 mm, 465 mm for 1200 mm) are longer than the belt on them by that within 15 %",
+)
 
 
 def _drift(spec: Conveyor, bend: Bend, strand: str, loaded: bool, tension: float, speed: float, rule: str) -> float:
@@ -132,7 +131,7 @@ def _sides(check: AnyCheck, side: int, key: str) -> AnyCheck:
         for bend in spec.route.bends:
             for strand in STRANDS:
                 governs = bend_key(bend, key if key == "radius" or strand == "carry" else f"{key}_return")
-                part = check.of(f"{bend.number}_{strand}", _limit, governs, _needs(spec, scene, bend, strand), governs)
+                part = check.of(f"{bend.number}_{strand}", _LIMIT, governs, _needs(spec, scene, bend, strand), governs)
                 names = (of(MOST if side > 0 else LEAST, state) for state in states(spec, bend, strand, scene))
                 value = partial(_worst, bend=bend, strand=strand, side=side)
                 yield replace(part, loads=tuple(names), value=value)
@@ -159,10 +158,10 @@ INWARD: AnyCheck = _sides(
         scenes=frozenset(_SCENES),
         loads=(MOST,),
         sense=Sense.AT_MOST,
-        limit=_limit,
+        limit=_LIMIT,
         needs=no_needs,
         value=_inward,
-        blame=lambda spec, scene, loads: ("route", "sections"),
+        blame=blames("route", "sections"),
         repair=no_repair,
         quantity=units.LENGTH,
         what="The belt drifts inward in a horizontal curve by at most the distance from its edge to the end of the wing"
@@ -186,10 +185,10 @@ OUTWARD: AnyCheck = _sides(
         scenes=frozenset(_SCENES),
         loads=(LEAST,),
         sense=Sense.AT_MOST,
-        limit=_limit,
+        limit=_LIMIT,
         needs=no_needs,
         value=_outward,
-        blame=lambda spec, scene, loads: ("route", "sections"),
+        blame=blames("route", "sections"),
         repair=no_repair,
         quantity=units.LENGTH,
         what="The belt drifts outward in a horizontal curve by at most the distance from its edge to the end of the"

@@ -5,7 +5,8 @@ from collections.abc import Iterable, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.conveyor.governing_keys import TENSION, blame_tension, takeup_tension
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs, strength_key
 from ptmcalc.machines.conveyor.running.limits import given
@@ -42,19 +43,7 @@ STRENGTH: Check[Conveyor, ConveyorScene] = Check(
 )
 
 
-def _sag_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Permissible sag ratio h/a of the file, 1 % by default.
-
-    **Range** steady running; larger values are permissible for a short time.
-    **Error** none: a chosen limit.
-    **Source** DIN 22101: at most 1 % in steady running.
-    """
-    return Estimate.exact(spec.checks.sag)
-
-
-def _idler_pitches(spec: Conveyor, scene: ConveyorScene) -> tuple[KeyPath, ...]:
-    return (("idlers", "carry", "pitch"), ("idlers", "return", "pitch"))
-
+_PITCHES = needs(("idlers", "carry", "pitch"), ("idlers", "return", "pitch"))
 
 SAG: Check[Conveyor, Run] = Check(
     code="CNV103",
@@ -64,8 +53,13 @@ SAG: Check[Conveyor, Run] = Check(
     scenes=frozenset({Run}),
     loads=("sag_relative_max",),
     sense=Sense.AT_MOST,
-    limit=_sag_limit,
-    needs=_idler_pitches,
+    limit=key(
+        "checks.sag",
+        meaning="Permissible sag ratio h/a of the file, 1 % by default",
+        valid="steady running; larger values are permissible for a short time",
+        source="DIN 22101: at most 1 % in steady running",
+    ),
+    needs=_PITCHES,
     blame=blame_tension,
     repair=takeup_tension,
     what="In steady running, the sag ratio of the belt between any two idlers is at most the limit.",
@@ -115,17 +109,6 @@ STRAND_SAG: Check[Conveyor, Run] = Check(
 )
 
 
-def _transient_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Permissible sag ratio h/a in a start or stop, of the file.
-
-    **Range** starts and stops; larger than in steady running for a short time.
-    **Error** none: a chosen limit.
-    **Source** the file; 3 % is usual.
-    """
-    limit = spec.checks.sag_transient
-    return Estimate.exact(math.inf if limit is None else limit)
-
-
 TRANSIENT_SAG: Check[Conveyor, ConveyorScene] = only(lambda spec, scene: spec.checks.sag_transient is not None)(
     Check(
         code="CNV132",
@@ -135,8 +118,13 @@ TRANSIENT_SAG: Check[Conveyor, ConveyorScene] = only(lambda spec, scene: spec.ch
         scenes=IN_MOTION - {Jam},
         loads=("sag_relative_max",),
         sense=Sense.AT_MOST,
-        limit=_transient_limit,
-        needs=_idler_pitches,
+        limit=key(
+            "checks.sag_transient",
+            meaning="Permissible sag ratio h/a in a start or stop, of the file",
+            valid="starts and stops; larger than in steady running for a short time",
+            source="the file; 3 % is usual",
+        ),
+        needs=_PITCHES,
         blame=blame_tension,
         repair=takeup_tension,
         what="During a start or stop, the sag ratio of the belt between any two idlers is at most the limit.",
@@ -147,17 +135,6 @@ TRANSIENT_SAG: Check[Conveyor, ConveyorScene] = only(lambda spec, scene: spec.ch
 )
 
 
-def _slack_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """0: the tension is at least that of the slack limit.
-
-    **Range** with idler pitches given: 10 % sag by default, the end of the range of the parabola; otherwise zero
-    tension.
-    **Error** none: a chosen limit.
-    **Source** validity of the shallow parabola (`laws.sag.sag_ratio`), an engineering choice.
-    """
-    return Estimate.exact(0.0)
-
-
 SLACK: Check[Conveyor, ConveyorScene] = Check(
     code="CNV105",
     title="belt tension above slack limit",
@@ -166,7 +143,14 @@ SLACK: Check[Conveyor, ConveyorScene] = Check(
     scenes=ANY_MOTION,
     loads=("slack_margin_min",),
     sense=Sense.AT_LEAST,
-    limit=_slack_limit,
+    limit=fixed(
+        0.0,
+        meaning="0: the tension is at least that of the slack limit",
+        valid="with idler pitches given: 10 % sag by default, the end of the range of the parabola; otherwise zero"
+        " tension",
+        error="none: a chosen limit",
+        source="validity of the shallow parabola (`laws.sag.sag_ratio`), an engineering choice",
+    ),
     needs=no_needs,
     blame=blame_tension,
     repair=takeup_tension,
@@ -175,16 +159,6 @@ SLACK: Check[Conveyor, ConveyorScene] = Check(
     formula="S_min - w l/(8 h_slack) >= 0 on either strand   (h_slack 10 %; without idler pitches S_min >= 0)",
     source="shallow parabola; slack as the end of the linear belt, lecture notes Kramatorsk 2007",
 )
-
-
-def _stroke_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Take-up travel given in the file.
-
-    **Range** any take-up with a given stroke.
-    **Error** none.
-    **Source** the manufacturer's data.
-    """
-    return Estimate.exact(spec.takeup.stroke or math.inf)
 
 
 STROKE: Check[Conveyor, Run] = only(lambda spec, scene: spec.takeup.stroke is not None)(
@@ -196,10 +170,16 @@ STROKE: Check[Conveyor, Run] = only(lambda spec, scene: spec.takeup.stroke is no
         scenes=frozenset({Run}),
         loads=("takeup_travel",),
         sense=Sense.AT_MOST,
-        limit=_stroke_limit,
+        limit=key(
+            "takeup.stroke",
+            meaning="Take-up travel given in the file",
+            valid="any take-up with a given stroke",
+            error="none",
+            source="the manufacturer's data",
+        ),
         needs=no_needs,
-        blame=lambda spec, scene, loads: ("takeup", "stroke"),
-        repair=lambda spec, scene: ("takeup", "stroke"),
+        blame=blames("takeup", "stroke"),
+        repair=at("takeup", "stroke"),
         what="The required take-up travel is at most the stroke. It starts from the new belt at standstill, closed with"
         " the take-up tension S_0 all round. It ends at the old belt in steady running. A take-up weight follows the"
         " elastic and the permanent elongation. A take-up screw moves for the permanent elongation only, because its"

@@ -5,7 +5,8 @@ from collections.abc import Iterable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.laws import vertical_curve
 from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Bend, Curve
@@ -25,16 +26,6 @@ _TROUGH: KeyPath = ("idlers", "carry", "trough")
 # -- cross-section of the load --------------------------------------------------------------------------------------
 
 
-def _fill_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Permissible filling ratio of the file, 1 by default.
-
-    **Range** uniform feed; a smaller ratio leaves room for surges and lumps.
-    **Error** none: a chosen limit.
-    **Source** DIN 22101: filling ratio 0.7 to 1.1.
-    """
-    return Estimate.exact(spec.checks.section_fill)
-
-
 def _fill_checks(spec: Conveyor, scene: Run) -> Checks:
     """Where the file gives the bulk density."""
     return (FILL,) if spec.load.density is not None else ()
@@ -48,7 +39,12 @@ FILL: Check[Conveyor, Run] = Check(
     scenes=frozenset({Run}),
     loads=("section_fill",),
     sense=Sense.AT_MOST,
-    limit=_fill_limit,
+    limit=key(
+        "checks.section_fill",
+        meaning="Permissible filling ratio of the file, 1 by default",
+        valid="uniform feed; a smaller ratio leaves room for surges and lumps",
+        source="DIN 22101: filling ratio 0.7 to 1.1",
+    ),
     needs=lambda spec, scene: (_TROUGH, _WIDTH),
     blame=lambda spec, scene, loads: _WIDTH,
     repair=lambda spec, scene: _WIDTH,
@@ -142,14 +138,12 @@ def _fibre_limit(spec: Conveyor, scene: Run) -> Estimate:
     return Estimate.exact(most * spec.checks.edge_overload)
 
 
-def _least_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """0: no fibre is under compression.
-
-    **Range** steady running.
-    **Error** none.
-    **Source** a belt has no stiffness in compression: it buckles.
-    """
-    return Estimate.exact(0.0)
+_LEAST_LIMIT = fixed(
+    0.0,
+    meaning="0: no fibre is under compression",
+    valid="steady running",
+    source="a belt has no stiffness in compression: it buckles",
+)
 
 
 def _places(spec: Conveyor) -> dict[str, Curve | Transition | Bend]:
@@ -173,7 +167,7 @@ def _fibre_checks(spec: Conveyor, scene: Run) -> Checks:
 def _least_checks(spec: Conveyor, scene: Run) -> Checks:
     for name, place in _places(spec).items():
         key = _place_key(place, name)
-        yield PRESSED.of(name, _least_limit, key, (_TROUGH, _WIDTH), key)
+        yield PRESSED.of(name, _LEAST_LIMIT, key, (_TROUGH, _WIDTH), key)
 
 
 _FIBRES = (
@@ -192,7 +186,7 @@ FIBRE: Check[Conveyor, Run] = Check(
     sense=Sense.AT_MOST,
     limit=_fibre_limit,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("transitions",),
+    blame=blames("transitions"),
     repair=no_repair,
     each=_fibre_checks,
     what="The maximum fibre tension per width is at most the limit in every transition, convex curve, concave curve and"
@@ -210,9 +204,9 @@ PRESSED: Check[Conveyor, Run] = Check(
     scenes=frozenset({Run}),
     loads=("fibre_tension_min",),
     sense=Sense.AT_LEAST,
-    limit=_least_limit,
+    limit=_LEAST_LIMIT,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("transitions",),
+    blame=blames("transitions"),
     repair=no_repair,
     each=_least_checks,
     what="Every fibre of the belt stays in tension in every transition, convex curve, concave curve and horizontal"
@@ -260,7 +254,7 @@ LIFT: Check[Conveyor, ConveyorScene] = Check(
     sense=Sense.AT_MOST,
     limit=_lift_limit,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("route",),
+    blame=blames("route"),
     repair=no_repair,
     each=_lift_checks,
     what="The empty belt stays on its idlers in every concave curve: its tension there is at most the lift-off"

@@ -9,6 +9,7 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.limits import key
 from ptmcalc.contract.result import LoadInfo, of
 from ptmcalc.laws import idler_roll
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -138,14 +139,12 @@ ROLL_SPEED: Check[Conveyor, Run] = Check(
 )
 
 
-def _life_limit(spec: Conveyor, scene: Run) -> Estimate:
-    """Required rating life of the idler bearings, of the file.
-
-    **Range** ball bearings.
-    **Error** none: a chosen limit.
-    **Source** the file.
-    """
-    return Estimate.exact(spec.checks.idler_life or 0.0)
+_LIFE_LIMIT = key(
+    "checks.idler_life",
+    meaning="Required rating life of the idler bearings, of the file",
+    valid="ball bearings",
+    absent=0.0,
+)
 
 
 def _life_checks(spec: Conveyor, scene: Run) -> Checks:
@@ -154,7 +153,7 @@ def _life_checks(spec: Conveyor, scene: Run) -> Checks:
         return
     for strand in life_strands(spec):
         key, pitch = _roll_path(strand, "dynamic_load_rating"), ("idlers", strand, "pitch")
-        yield BEARING_LIFE.of(strand, _life_limit, key, (pitch, key), key)
+        yield BEARING_LIFE.of(strand, _LIFE_LIMIT, key, (pitch, key), key)
 
 
 BEARING_LIFE: Check[Conveyor, Run] = Check(
@@ -165,7 +164,7 @@ BEARING_LIFE: Check[Conveyor, Run] = Check(
     scenes=frozenset({Run}),
     loads=("bearing_life",),
     sense=Sense.AT_LEAST,
-    limit=_life_limit,
+    limit=_LIFE_LIMIT,
     needs=no_needs,
     blame=lambda spec, scene, loads: _roll_path("carry", "dynamic_load_rating"),
     repair=no_repair,

@@ -7,6 +7,7 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense
+from ptmcalc.contract.limits import fixed
 from ptmcalc.laws import belt_splice
 from ptmcalc.machines.conveyor.keys.belt import Splice
 from ptmcalc.machines.conveyor.model import belt_stiffness, breaking_force
@@ -21,17 +22,6 @@ Checks = Iterable[AnyCheck]
 
 _WIDTH: KeyPath = ("belt", "width")
 _TROUGH: KeyPath = ("idlers", "carry", "trough")
-
-
-def _limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """1: the safety is in the factors S_0 and S_1 of the value.
-
-    **Range** steady running. Starts and stops are verified with the same factors, on the safe side: a higher tension
-    is permissible for a short time only where the manufacturer states it.
-    **Error** none.
-    **Source** DIN 22101:2011 as quoted by belt manufacturers; to be compared with the edition in force.
-    """
-    return Estimate.exact(1.0)
 
 
 def _value(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Estimate:
@@ -109,7 +99,13 @@ SPLICE: Check[Conveyor, ConveyorScene] = Check(
     scenes=ANY_MOTION,
     loads=("belt_safety_min", "tension_max", "tension_run_on_max"),
     sense=Sense.AT_LEAST,
-    limit=_limit,
+    limit=fixed(
+        1.0,
+        meaning="1: the safety is in the factors S_0 and S_1 of the value",
+        valid="steady running. Starts and stops are verified with the same factors, on the safe side: a higher tension"
+        " is permissible for a short time only where the manufacturer states it",
+        source="DIN 22101:2011 as quoted by belt manufacturers; to be compared with the edition in force",
+    ),
     value=_value,
     needs=lambda spec, scene: _needs(spec),
     blame=lambda spec, scene, loads: strength_key(spec, scene),

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.conveyor.governing_keys import starting_torque_key
 from ptmcalc.machines.conveyor.loads import RUN_BACK_DISTANCE, may_run_back
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
@@ -172,16 +173,6 @@ SHARP: Check[Conveyor, Start] = Check(
 # -- swings ---------------------------------------------------------------------------------------------------------
 
 
-def _residual_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """Permissible residual oscillation, given in the file.
-
-    **Range** profiles over time.
-    **Error** none: a chosen limit.
-    **Source** the plant's rules.
-    """
-    return Estimate.exact(spec.checks.start_residual if spec.checks.start_residual is not None else math.inf)
-
-
 def _residual_checks(spec: Conveyor, scene: Start) -> Checks:
     if spec.checks.start_residual is not None and scene.profile.rise_time:
         yield RESIDUAL
@@ -195,7 +186,12 @@ RESIDUAL: Check[Conveyor, Start] = Check(
     scenes=frozenset({Start}),
     loads=("start_residual",),
     sense=Sense.AT_MOST,
-    limit=_residual_limit,
+    limit=key(
+        "checks.start_residual",
+        meaning="Permissible residual oscillation, given in the file",
+        valid="profiles over time",
+        source="the plant's rules",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _time_key(spec, scene),
     repair=lambda spec, scene: () if scene.profile.points else _time_key(spec, scene),
@@ -206,16 +202,6 @@ RESIDUAL: Check[Conveyor, Start] = Check(
     formula="R = |integral of q'(t) exp(i w_1 t) dt| <= limit,   1 for a step",
     source="`laws.start_profile.residual`; frequencies of `laws.belt_modes`",
 )
-
-
-def _band_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """Required separation of the drive ripple from the three lowest belt frequencies, 15 % by default.
-
-    **Range** belt and idlers damp the higher modes.
-    **Error** none: a chosen limit.
-    **Source** 15 %: a damping of 0.05 lets a mode grow to a third of its peak there; an engineering choice.
-    """
-    return Estimate.exact(spec.checks.resonance_band)
 
 
 def _band_checks(spec: Conveyor, scene: Start) -> Checks:
@@ -231,7 +217,12 @@ RESONANCE: Check[Conveyor, Start] = Check(
     scenes=frozenset({Start}),
     loads=("resonance_distance",),
     sense=Sense.AT_LEAST,
-    limit=_band_limit,
+    limit=key(
+        "checks.resonance_band",
+        meaning="Required separation of the drive ripple from the three lowest belt frequencies, 15 % by default",
+        valid="belt and idlers damp the higher modes",
+        source="15 %: a damping of 0.05 lets a mode grow to a third of its peak there; an engineering choice",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _ripple_key(spec, scene),
     repair=_ripple_key,
@@ -244,16 +235,6 @@ RESONANCE: Check[Conveyor, Start] = Check(
 )
 
 
-def _start_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """1: the starting force reaches the required force.
-
-    **Range** any start.
-    **Error** none.
-    **Source** Newton's law.
-    """
-    return Estimate.exact(1.0)
-
-
 START: Check[Conveyor, Start] = Check(
     code="CNV104",
     title="starting force reserve",
@@ -262,7 +243,9 @@ START: Check[Conveyor, Start] = Check(
     scenes=frozenset({Start}),
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
-    limit=_start_limit,
+    limit=fixed(
+        1.0, meaning="1: the starting force reaches the required force", valid="any start", source="Newton's law"
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: starting_torque_key(spec),
     repair=lambda spec, scene: () if (key := starting_torque_key(spec))[-1] == "curve" else key,
@@ -275,16 +258,6 @@ START: Check[Conveyor, Start] = Check(
 
 
 # -- aborted starts -------------------------------------------------------------------------------------------------
-
-
-def _run_back_limit(spec: Conveyor, scene: Start) -> Estimate:
-    """Permissible run-back distance of an aborted start, 0.1 m by default.
-
-    **Range** an aborted start without a backstop at all drives.
-    **Error** none: a chosen limit.
-    **Source** engineering choice; the stretch at the drive pulley that a short belt releases.
-    """
-    return Estimate.exact(spec.checks.run_back)
 
 
 def _run_back_checks(spec: Conveyor, scene: Start) -> Checks:
@@ -300,7 +273,12 @@ RUN_BACK: Check[Conveyor, Start] = Check(
     scenes=frozenset({Start}),
     loads=(RUN_BACK_DISTANCE,),
     sense=Sense.AT_MOST,
-    limit=_run_back_limit,
+    limit=key(
+        "checks.run_back",
+        meaning="Permissible run-back distance of an aborted start, 0.1 m by default",
+        valid="an aborted start without a backstop at all drives",
+        source="engineering choice; the stretch at the drive pulley that a short belt releases",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: ("scenes", list(spec.all_scenes).index(scene), "aborted"),
     repair=no_repair,

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, only
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.drives import moving_mass, running
 from ptmcalc.machines.conveyor.spec import (
@@ -107,16 +108,6 @@ STOP: Check[Conveyor, ConveyorScene] = only(_limited)(
 )
 
 
-def _time_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Permissible stopping time given in the file; one hour without it, after which the belt counts as not stopping.
-
-    **Range** any stop; a coasting stop only if the file gives the limit.
-    **Error** none: a chosen limit.
-    **Source** the plant's rules.
-    """
-    return Estimate.exact(spec.checks.stop_time or _HOUR)
-
-
 def _where_timed(spec: Conveyor, scene: ConveyorScene) -> Checks:
     """Every stop; a run-out only with a limit."""
     held = not isinstance(scene, Coast) or spec.checks.stop_time is not None
@@ -132,7 +123,14 @@ STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
     scenes=frozenset({Stop, EmergencyStop, ControlledStop, Coast}),
     loads=("stop_time",),
     sense=Sense.AT_MOST,
-    limit=_time_limit,
+    limit=key(
+        "checks.stop_time",
+        meaning="Permissible stopping time given in the file; one hour without it, after which the belt counts as not"
+        " stopping",
+        valid="any stop; a coasting stop only if the file gives the limit",
+        source="the plant's rules",
+        absent=_HOUR,
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _time_key(spec, scene),
     repair=_brake_repair,

@@ -7,6 +7,7 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, no_needs
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import start_profile
@@ -80,16 +81,6 @@ def _blame(spec: Conveyor, scene: ControlledStop, loads: Mapping[str, Estimate])
     return time_key(spec, scene)
 
 
-def _force_limit(spec: Conveyor, scene: ControlledStop) -> Estimate:
-    """1: the available braking force reaches the required force.
-
-    **Range** motors whose braking torque is at least their mean starting torque.
-    **Error** none.
-    **Source** Newton's law.
-    """
-    return Estimate.exact(1.0)
-
-
 FORCE: Check[Conveyor, ControlledStop] = Check(
     code="CNV125",
     title="braking force reserve, controlled stop",
@@ -98,7 +89,12 @@ FORCE: Check[Conveyor, ControlledStop] = Check(
     scenes=frozenset({ControlledStop}),
     loads=(BRAKING_RESERVE,),
     sense=Sense.AT_LEAST,
-    limit=_force_limit,
+    limit=fixed(
+        1.0,
+        meaning="1: the available braking force reaches the required force",
+        valid="motors whose braking torque is at least their mean starting torque",
+        source="Newton's law",
+    ),
     needs=no_needs,
     blame=_blame,
     repair=time_key,
@@ -110,16 +106,6 @@ FORCE: Check[Conveyor, ControlledStop] = Check(
 )
 
 
-def _power_limit(spec: Conveyor, scene: ControlledStop) -> Estimate:
-    """Power that the converters take back, given in the file.
-
-    **Range** any controlled stop.
-    **Error** that of the given value.
-    **Source** the data sheet of the converters.
-    """
-    return Estimate.exact(filled(spec.checks.braking_power))
-
-
 POWER: Check[Conveyor, ControlledStop] = Check(
     code="CNV126",
     title="braking power, controlled stop",
@@ -128,7 +114,13 @@ POWER: Check[Conveyor, ControlledStop] = Check(
     scenes=frozenset({ControlledStop}),
     loads=(BRAKING_POWER,),
     sense=Sense.AT_MOST,
-    limit=_power_limit,
+    limit=key(
+        "checks.braking_power",
+        meaning="Power that the converters take back, given in the file",
+        valid="any controlled stop",
+        error="that of the given value",
+        source="the data sheet of the converters",
+    ),
     needs=no_needs,
     blame=_blame,
     repair=time_key,

@@ -1,27 +1,17 @@
 """Checks of the take-up over all scenes: travel, and distance of the weight from its stops."""
 
-import math
 from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, no_needs, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.spec import ANY_MOTION, IN_MOTION, Conveyor, ConveyorScene, Run
 from ptmcalc.machines.conveyor.takeup.loads import LOWER, UPPER
 
 Loads = Mapping[str, Estimate]
 _STROKE: KeyPath = ("takeup", "stroke")
-
-
-def _stroke(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Take-up travel given in the file.
-
-    **Range** any take-up with a given stroke.
-    **Error** none.
-    **Source** the manufacturer's data.
-    """
-    return Estimate.exact(spec.takeup.stroke or math.inf)
 
 
 TRAVEL_BUDGET: Check[Conveyor, ConveyorScene] = only(
@@ -35,7 +25,13 @@ TRAVEL_BUDGET: Check[Conveyor, ConveyorScene] = only(
         scenes=ANY_MOTION,
         loads=(TAKEUP_TOTAL,),
         sense=Sense.AT_MOST,
-        limit=_stroke,
+        limit=key(
+            "takeup.stroke",
+            meaning="Take-up travel given in the file",
+            valid="any take-up with a given stroke",
+            error="none",
+            source="the manufacturer's data",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: _STROKE,
         repair=lambda spec, scene: _STROKE,
@@ -47,16 +43,6 @@ TRAVEL_BUDGET: Check[Conveyor, ConveyorScene] = only(
         source="DIN 22101, take-up travel; manuals of belt manufacturers",
     )
 )
-
-
-def _contact(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """0: the weight just reaches its stop.
-
-    **Range** a gravity take-up with a given stroke.
-    **Error** none.
-    **Source** geometry.
-    """
-    return Estimate.exact(0.0)
 
 
 def _nearest(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Estimate:
@@ -98,7 +84,12 @@ STOPS: Check[Conveyor, ConveyorScene] = only(
         scenes=frozenset(IN_MOTION),
         loads=TAKEUP_CLEARANCES,
         sense=Sense.AT_LEAST,
-        limit=_contact,
+        limit=fixed(
+            0.0,
+            meaning="0: the weight just reaches its stop",
+            valid="a gravity take-up with a given stroke",
+            source="geometry",
+        ),
         needs=no_needs,
         value=_nearest,
         blame=_blame,

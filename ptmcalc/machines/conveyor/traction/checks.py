@@ -7,6 +7,7 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, needs, no_needs, no_repair
+from ptmcalc.contract.limits import key
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.governing_keys import TENSION, blame_tension, starting_torque_key, takeup_tension
@@ -46,16 +47,6 @@ _NO_RESERVE = math.nextafter(1, 0)  # just below any k_T
 _STRONG_START = 1.5
 """Starting force relative to static resistance above which a failed check names the start as the cause [1]: the usual
 upper limit of practice. A smaller value names the start more often; no verdict depends on it."""
-
-
-def _slip_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """k_T of the file.
-
-    **Range** at least 1.
-    **Error** none: a chosen limit.
-    **Source** lecture notes Kramatorsk 2007: 1.1 to 1.5; 1.2 is the usual value of handbooks.
-    """
-    return Estimate.exact(spec.checks.slip.reserve)
 
 
 def _slip_value(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Estimate:
@@ -144,7 +135,12 @@ SLIP: Check[Conveyor, ConveyorScene] = Check(
     loads=("slip_reserve_min", "slip_utilisation_max"),
     value=_slip_value,
     sense=Sense.AT_LEAST,
-    limit=_slip_limit,
+    limit=key(
+        "checks.slip.reserve",
+        meaning="k_T of the file",
+        valid="at least 1",
+        source="lecture notes Kramatorsk 2007: 1.1 to 1.5; 1.2 is the usual value of handbooks",
+    ),
     needs=lambda spec, scene: ((*spec.main_path, "drum", "friction"),),
     blame=_blame_slip,
     repair=takeup_tension,
@@ -158,14 +154,12 @@ SLIP: Check[Conveyor, ConveyorScene] = Check(
 )
 
 
-def _heat_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Permissible slip heat given in the file.
-
-    **Range** any scene in motion with a given limit.
-    **Error** none: a chosen limit.
-    **Source** data of the lagging manufacturer.
-    """
-    return Estimate.exact(spec.checks.slip_heat or math.inf)
+_HEAT_LIMIT = key(
+    "checks.slip_heat",
+    meaning="Permissible slip heat given in the file",
+    valid="any scene in motion with a given limit",
+    source="data of the lagging manufacturer",
+)
 
 
 def _heat_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
@@ -174,7 +168,7 @@ def _heat_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
     for name, drive in spec.all_drives.items():
         path = (*spec.drive_path(name), "drum", "friction")
         if drive.drum.friction is not None:
-            yield HEAT.of(name, _heat_limit, path)
+            yield HEAT.of(name, _HEAT_LIMIT, path)
 
 
 HEAT: Check[Conveyor, ConveyorScene] = Check(
@@ -185,7 +179,7 @@ HEAT: Check[Conveyor, ConveyorScene] = Check(
     scenes=IN_MOTION - {Jam},
     loads=("slip_heat",),
     sense=Sense.AT_MOST,
-    limit=_heat_limit,
+    limit=_HEAT_LIMIT,
     needs=no_needs,
     blame=blame_tension,
     repair=no_repair,

@@ -3,24 +3,14 @@
 import math
 from collections.abc import Iterator
 
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.check import Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import Check, Sense, blames, no_needs, no_repair
+from ptmcalc.contract.limits import fixed
 from ptmcalc.machines.drivetrain.judging import ALL, NO_LIMIT, AnyCheck, exactly
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 
 WORN_OUT, WORN_OUT_OPEN = 0.25, 0.40
 """Largest worn part of a tooth [1], lecture notes Kramatorsk 2007 (15 to 25 % and 40 %): in gearboxes and gear
 couplings (`WORN_OUT`), and in open gears (`WORN_OUT_OPEN`). A smaller value requires an earlier renewal."""
-
-
-def torque_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Permissible torque of a link, given in the file.
-
-    **Range** each link that has a `limit`.
-    **Error** none.
-    **Source** the manufacturer's data.
-    """
-    return Estimate.exact(math.inf)
 
 
 def _torque_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
@@ -42,9 +32,14 @@ TORQUE: AnyCheck = Check(
     scenes=ALL,
     loads=("torque_peak",),
     sense=Sense.AT_MOST,
-    limit=torque_limit,
+    limit=fixed(
+        math.inf,
+        meaning="Permissible torque of a link, given in the file",
+        valid="each link that has a `limit`",
+        source="the manufacturer's data",
+    ),
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("links",),
+    blame=blames("links"),
     repair=no_repair,
     each=_torque_checks,
     what="The peak torque (or force) of every link with a `limit` is at most this limit.",
@@ -52,16 +47,6 @@ TORQUE: AnyCheck = Check(
     formula="max |T(t)| <= T_limit",
     source="the manufacturer's limit of the part",
 )
-
-
-def wear_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Permissible tooth wear relative to the tooth thickness: 25 % in gearboxes and couplings, 40 % in open gears.
-
-    **Range** links with a backlash from a `clearance` with a module.
-    **Error** none.
-    **Source** lecture notes Kramatorsk 2007 (15 to 25 % and 40 % of the tooth thickness).
-    """
-    return Estimate.exact(WORN_OUT)
 
 
 def _wear_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
@@ -80,9 +65,15 @@ WEAR: AnyCheck = Check(
     scenes=ALL,
     loads=("wear_share",),
     sense=Sense.AT_MOST,
-    limit=wear_limit,
+    limit=fixed(
+        WORN_OUT,
+        meaning="Permissible tooth wear relative to the tooth thickness: 25 % in gearboxes and couplings, 40 % in open"
+        " gears",
+        valid="links with a backlash from a `clearance` with a module",
+        source="lecture notes Kramatorsk 2007 (15 to 25 % and 40 % of the tooth thickness)",
+    ),
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("links",),
+    blame=blames("links"),
     repair=no_repair,
     each=_wear_checks,
     what="The wear of gear teeth is at most 25 % of their thickness, and at most 40 % for open gears.",

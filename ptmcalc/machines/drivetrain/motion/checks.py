@@ -1,28 +1,18 @@
 """Checks of start and stop: times, speeds, stopping distance, clutches."""
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import Check, LimitState, Sense, no_needs, no_repair
+from ptmcalc.contract.check import Check, LimitState, Sense, blames, no_needs, no_repair
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.contract.result import of
 from ptmcalc.machines.drivetrain.model import brake_of, case_of
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Start, Stop, TrainScene
 
 C = TypeVar("C", bound=TrainScene)
-
-
-def start_limit(spec: Drivetrain, scene: Start) -> Estimate:
-    """Maximum starting time given in the file.
-
-    **Range** any start with a target speed.
-    **Error** none.
-    **Source** a choice of the designer.
-    """
-    return Estimate.exact(spec.checks.start_time or math.inf)
 
 
 def _end_of_start(spec: Drivetrain, scene: Start) -> tuple[KeyPath, ...]:
@@ -77,9 +67,15 @@ START: Check[Drivetrain, Start] = Check(
     scenes=frozenset({Start}),
     loads=("start_time",),
     sense=Sense.AT_MOST,
-    limit=start_limit,
+    limit=key(
+        "checks.start_time",
+        meaning="Maximum starting time given in the file",
+        valid="any start with a target speed",
+        error="none",
+        source="a choice of the designer",
+    ),
     needs=_start_needs,
-    blame=lambda spec, scene, loads: ("checks", "start_time"),
+    blame=blames("checks", "start_time"),
     repair=no_repair,
     each=_start_checks,
     what="The inertia considered in the scene reaches its speed within the maximum start time.",
@@ -87,16 +83,6 @@ START: Check[Drivetrain, Start] = Check(
     formula="t(w = w_end) <= t_limit",
     source="a choice of the designer",
 )
-
-
-def stop_limit(spec: Drivetrain, scene: Stop) -> Estimate:
-    """Maximum stopping time given in the file.
-
-    **Range** any stop.
-    **Error** none.
-    **Source** a choice of the designer or of a rule for the machine.
-    """
-    return Estimate.exact(spec.checks.stop_time or math.inf)
 
 
 def _stop_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
@@ -147,7 +133,13 @@ STOP: Check[Drivetrain, Stop] = Check(
     scenes=frozenset({Stop}),
     loads=("stop_time",),
     sense=Sense.AT_MOST,
-    limit=stop_limit,
+    limit=key(
+        "checks.stop_time",
+        meaning="Maximum stopping time given in the file",
+        valid="any stop",
+        error="none",
+        source="a choice of the designer or of a rule for the machine",
+    ),
     needs=lambda spec, scene: (*_speed_before(spec, scene), ("checks", "stop_time")),
     blame=_stop_blame,
     repair=_brake_torque,
@@ -159,16 +151,6 @@ STOP: Check[Drivetrain, Stop] = Check(
 )
 
 
-def _whole(spec: Drivetrain, scene: Start) -> Estimate:
-    """1: the full target speed of the start.
-
-    **Range** any start with a target speed.
-    **Error** none.
-    **Source** definition of a start.
-    """
-    return Estimate.exact(1.0)
-
-
 REACHES: Check[Drivetrain, Start] = Check(
     code="DRV109",
     title="speed reached in the start, relative to target",
@@ -177,7 +159,12 @@ REACHES: Check[Drivetrain, Start] = Check(
     scenes=frozenset({Start}),
     loads=("start_share",),
     sense=Sense.AT_LEAST,
-    limit=_whole,
+    limit=fixed(
+        1.0,
+        meaning="1: the full target speed of the start",
+        valid="any start with a target speed",
+        source="definition of a start",
+    ),
     needs=_end_of_start,
     blame=_motor_blame,
     repair=no_repair,
@@ -189,16 +176,6 @@ REACHES: Check[Drivetrain, Start] = Check(
 )
 
 
-def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
-    """0: standstill.
-
-    **Range** any stop.
-    **Error** none.
-    **Source** definition of a stop.
-    """
-    return Estimate.exact(0.0)
-
-
 RESTS: Check[Drivetrain, Stop] = Check(
     code="DRV110",
     title="speed after the stop",
@@ -207,7 +184,7 @@ RESTS: Check[Drivetrain, Stop] = Check(
     scenes=frozenset({Stop}),
     loads=("stop_speed_share",),
     sense=Sense.AT_MOST,
-    limit=_nothing,
+    limit=fixed(0.0, meaning="0: standstill", valid="any stop", source="definition of a stop"),
     needs=_speed_before,
     blame=_stop_blame,
     repair=_brake_torque,
@@ -217,16 +194,6 @@ RESTS: Check[Drivetrain, Stop] = Check(
     formula="|w(end)|/|w(0)| = 0",
     source="definition of a stop; static balance of brake and load",
 )
-
-
-def way_limit(spec: Drivetrain, scene: Stop) -> Estimate:
-    """Permissible stopping angle or distance, given in the file.
-
-    **Range** files with this limit.
-    **Error** none.
-    **Source** a choice of the designer or of a rule for the machine.
-    """
-    return Estimate.exact(spec.checks.stop_angle or math.inf)
 
 
 def _way_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Stop]]:
@@ -242,7 +209,13 @@ WAY: Check[Drivetrain, Stop] = Check(
     scenes=frozenset({Stop}),
     loads=("stop_angle",),
     sense=Sense.AT_MOST,
-    limit=way_limit,
+    limit=key(
+        "checks.stop_angle",
+        meaning="Permissible stopping angle or distance, given in the file",
+        valid="files with this limit",
+        error="none",
+        source="a choice of the designer or of a rule for the machine",
+    ),
     needs=_speed_before,
     blame=_stop_blame,
     repair=_brake_torque,
@@ -257,17 +230,12 @@ WAY: Check[Drivetrain, Stop] = Check(
 def _clutch_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain, Start]]:
     for grip in case_of(spec, scene).clutches:
         path = ("brakes", grip.name, "torque")
-        yield CLUTCH.of(grip.name, _no_slip, path, repair=path)
+        yield CLUTCH.of(grip.name, _NO_SLIP, path, repair=path)
 
 
-def _no_slip(spec: Drivetrain, scene: Start) -> Estimate:
-    """0: no slip.
-
-    **Range** any clutch that acts in a start.
-    **Error** none.
-    **Source** definition of a locked clutch.
-    """
-    return Estimate.exact(0.0)
+_NO_SLIP = fixed(
+    0.0, meaning="0: no slip", valid="any clutch that acts in a start", source="definition of a locked clutch"
+)
 
 
 CLUTCH: Check[Drivetrain, Start] = Check(
@@ -278,9 +246,9 @@ CLUTCH: Check[Drivetrain, Start] = Check(
     scenes=frozenset({Start}),
     loads=("clutch_slip",),
     sense=Sense.AT_MOST,
-    limit=_no_slip,
+    limit=_NO_SLIP,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("brakes",),
+    blame=blames("brakes"),
     repair=no_repair,
     each=_clutch_checks,
     what="Each clutch that acts in the start is locked at its end.",

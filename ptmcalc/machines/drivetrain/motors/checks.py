@@ -3,22 +3,11 @@
 import math
 from collections.abc import Iterator
 
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.check import Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import Check, Sense, blames, no_needs, no_repair
+from ptmcalc.contract.limits import fixed
 from ptmcalc.machines.drivetrain.judging import DRIVEN, NO_LIMIT, RUNNING, AnyCheck, exactly
 from ptmcalc.machines.drivetrain.motors.overhauling import overhauled, path_of
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
-
-
-def heating_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Rated torque of all motors of one name.
-
-    **Range** motors whose rated torque is given or follows from power and speed.
-    **Error** none.
-    **Source** IEC 60034-1: the rms torque of a cycle against the rated one, for motors with losses proportional to the
-    square of the torque.
-    """
-    return Estimate.exact(math.inf)
 
 
 def _heating_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
@@ -39,9 +28,15 @@ HEATING: AnyCheck = Check(
     scenes=RUNNING,
     loads=("motor_torque_rms",),
     sense=Sense.AT_MOST,
-    limit=heating_limit,
+    limit=fixed(
+        math.inf,
+        meaning="Rated torque of all motors of one name",
+        valid="motors whose rated torque is given or follows from power and speed",
+        source="IEC 60034-1: the rms torque of a cycle against the rated one, for motors with losses proportional to"
+        " the square of the torque",
+    ),
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("motors",),
+    blame=blames("motors"),
     repair=no_repair,
     each=_heating_checks,
     what="The rms motor torque over the cycle, which determines the heating, is at most the rated torque.",
@@ -49,16 +44,6 @@ HEATING: AnyCheck = Check(
     formula="sqrt(int M^2 dt/T) <= M_N,   T = checks.cycle_time, else the scene",
     source="IEC 60034-1; lecture notes Kramatorsk 2007",
 )
-
-
-def overload_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Permissible short-time motor torque, given in the file.
-
-    **Range** motors with `largest_torque`.
-    **Error** none.
-    **Source** the manufacturer's overload limit.
-    """
-    return Estimate.exact(math.inf)
 
 
 def _overload_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
@@ -77,9 +62,14 @@ OVERLOAD: AnyCheck = Check(
     scenes=DRIVEN,
     loads=("motor_torque_peak",),
     sense=Sense.AT_MOST,
-    limit=overload_limit,
+    limit=fixed(
+        math.inf,
+        meaning="Permissible short-time motor torque, given in the file",
+        valid="motors with `largest_torque`",
+        source="the manufacturer's overload limit",
+    ),
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("motors",),
+    blame=blames("motors"),
     repair=no_repair,
     each=_overload_checks,
     what="The peak torque of every motor with `largest_torque` is at most this limit.",
@@ -89,21 +79,19 @@ OVERLOAD: AnyCheck = Check(
 )
 
 
-def _at_least_all(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """1: the braking torque of all motors is at least the overhauling torque.
-
-    **Range** motors driven by the load at their no-load speed.
-    **Error** none.
-    **Source** torque balance at steady speed.
-    """
-    return Estimate.exact(1.0)
+_AT_LEAST_ALL = fixed(
+    1.0,
+    meaning="1: the braking torque of all motors is at least the overhauling torque",
+    valid="motors driven by the load at their no-load speed",
+    source="torque balance at steady speed",
+)
 
 
 def _braking_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
     """One for each part of the train whose motors a load drives."""
     for one in overhauled(spec, scene):
         path = path_of(spec, one.motor)
-        yield BRAKES.of(one.motor, _at_least_all, path, repair=path if len(path) > _MOTOR_PATH else ())
+        yield BRAKES.of(one.motor, _AT_LEAST_ALL, path, repair=path if len(path) > _MOTOR_PATH else ())
 
 
 _MOTOR_PATH = 2
@@ -117,9 +105,9 @@ BRAKES: AnyCheck = Check(
     scenes=DRIVEN,
     loads=("braking_reserve",),
     sense=Sense.AT_LEAST,
-    limit=_at_least_all,
+    limit=_AT_LEAST_ALL,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("motors",),
+    blame=blames("motors"),
     repair=no_repair,
     each=_braking_checks,
     what="The largest torque with which the motors brake above their no-load speed is at least the overhauling torque.",

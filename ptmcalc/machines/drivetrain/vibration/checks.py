@@ -2,22 +2,20 @@
 
 from collections.abc import Iterator
 
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.check import Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import Check, Sense, blames, no_needs, no_repair
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.drivetrain.judging import RUNNING, AnyCheck
 from ptmcalc.machines.drivetrain.keys.torques import SineTorque
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 
-
-def resonance_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Minimum separation of an excitation frequency from a natural frequency: 20 % of the natural frequency, or the
-    value of the file.
-
-    **Range** harmonic excitations.
-    **Error** none: an engineering choice.
-    **Source** usual practice; at 20 % an undamped amplitude is 2.3 to 2.8 times the static one.
-    """
-    return Estimate.exact(spec.checks.resonance_margin)
+_RESONANCE_LIMIT = key(
+    "checks.resonance_margin",
+    meaning="Minimum separation of an excitation frequency from a natural frequency: 20 % of the natural frequency, or"
+    " the value of the file",
+    valid="harmonic excitations",
+    error="none: an engineering choice",
+    source="usual practice; at 20 % an undamped amplitude is 2.3 to 2.8 times the static one",
+)
 
 
 def _resonance_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
@@ -25,7 +23,7 @@ def _resonance_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]
         if isinstance(torque, SineTorque):
             key = "frequency" if torque.frequency is not None else "angular_frequency"
             path = ("torques", name, key)
-            yield RESONANCE.of(name, resonance_limit, path, repair=path)
+            yield RESONANCE.of(name, _RESONANCE_LIMIT, path, repair=path)
 
 
 RESONANCE: AnyCheck = Check(
@@ -36,9 +34,9 @@ RESONANCE: AnyCheck = Check(
     scenes=RUNNING,
     loads=("resonance_separation",),
     sense=Sense.AT_LEAST,
-    limit=resonance_limit,
+    limit=_RESONANCE_LIMIT,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("torques",),
+    blame=blames("torques"),
     repair=no_repair,
     each=_resonance_checks,
     what="The frequency of every harmonic torque is separated from each natural frequency of the train by at least the"

@@ -1,18 +1,15 @@
 """The checks of a hoist's drive in even motion: what lifts, what heats, what holds."""
 
-import math
-from collections.abc import Mapping
-
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import braking_number_at, number_at
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.model import loaded
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
 
-Loads = Mapping[str, Estimate]
 OneCheck = Check[Hoist, Run]
 RUNNING = frozenset({Run})
 
@@ -43,20 +40,6 @@ def curve_number(spec: Hoist, path: KeyPath) -> KeyPath:
     return () if motor is None else number_at(path, motor.curve, rated=motor.power is not None)
 
 
-def _gearbox(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
-    return (("gearbox",),)
-
-
-def _reserve_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Minimum ratio of mean starting torque to load torque, 1.4 by default.
-
-    **Range** motors that start with the suspended load.
-    **Error** none: an engineering rule; FEM 9.683 requires 1.4 to 1.6, depending on the type of motor.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.motor_reserve)
-
-
 def _raised(spec: Hoist, scene: HoistScene) -> bool:
     return _driven(spec, scene) and not (isinstance(scene, Start) and scene.direction == "down")
 
@@ -71,8 +54,14 @@ WEAK: OneCheck = only(_raised)(
         scenes=frozenset({Run, Start}),
         loads=("starting_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_reserve_limit,
-        needs=_gearbox,
+        limit=key(
+            "checks.motor_reserve",
+            meaning="Minimum ratio of mean starting torque to load torque, 1.4 by default",
+            valid="motors that start with the suspended load",
+            error="none: an engineering rule; FEM 9.683 requires 1.4 to 1.6, depending on the type of motor",
+            source="handbooks of lifting machines",
+        ),
+        needs=needs(("gearbox",)),
         blame=lambda spec, scene, loads: _torque_key(spec, scene),
         repair=_torque_repair,
         what="The mean starting torque is at least the required reserve times the torque of the suspended load with"
@@ -84,16 +73,6 @@ WEAK: OneCheck = only(_raised)(
 )
 
 
-def _excess_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Maximum ratio of mean starting torque to load torque, 4 by default.
-
-    **Range** any motor.
-    **Error** none: an engineering rule; 1.6 to 2.5 is usual.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.motor_excess)
-
-
 EXCESS: OneCheck = only(_driven)(
     Check(
         code="HST115",
@@ -103,8 +82,14 @@ EXCESS: OneCheck = only(_driven)(
         scenes=RUNNING,
         loads=("starting_reserve",),
         sense=Sense.AT_MOST,
-        limit=_excess_limit,
-        needs=_gearbox,
+        limit=key(
+            "checks.motor_excess",
+            meaning="Maximum ratio of mean starting torque to load torque, 4 by default",
+            valid="any motor",
+            error="none: an engineering rule; 1.6 to 2.5 is usual",
+            source="handbooks of lifting machines",
+        ),
+        needs=needs(("gearbox",)),
         blame=lambda spec, scene, loads: _torque_key(spec, scene),
         repair=_torque_repair,
         what="The mean starting torque is at most the limit times the load torque, 4 times by default.",
@@ -113,16 +98,6 @@ EXCESS: OneCheck = only(_driven)(
         source="handbooks of lifting machines",
     )
 )
-
-
-def _heating_limit(spec: Hoist, scene: Run) -> Estimate:
-    """The full rating at the duty factor of the file.
-
-    **Range** ratings at another duty factor are converted with the cooling of the motor at standstill.
-    **Error** none: a definition.
-    **Source** IEC 60034-1; `laws.duty.permissible_torque`.
-    """
-    return Estimate.exact(1.0)
 
 
 def _heating_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
@@ -143,7 +118,13 @@ HEATING: OneCheck = only(_on_duty)(
         scenes=RUNNING,
         loads=("heating_utilisation",),
         sense=Sense.AT_MOST,
-        limit=_heating_limit,
+        limit=fixed(
+            1.0,
+            meaning="The full rating at the duty factor of the file",
+            valid="ratings at another duty factor are converted with the cooling of the motor at standstill",
+            error="none: a definition",
+            source="IEC 60034-1; `laws.duty.permissible_torque`",
+        ),
         needs=_heating_needs,
         blame=lambda spec, scene, loads: _rating(spec, scene),
         repair=_rating,
@@ -154,17 +135,6 @@ HEATING: OneCheck = only(_on_duty)(
         source="IEC 60034-1",
     )
 )
-
-
-def _starts_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Permitted starts per hour of the manufacturer.
-
-    **Range** motors that are switched on and off; 150, 300 and 600 per hour are usual.
-    **Error** none: a given value.
-    **Source** the manufacturer's data.
-    """
-    allowed = spec.motor.starts_per_hour if spec.motor is not None else None
-    return Estimate.exact(math.inf if allowed is None else allowed)
 
 
 def _starts_wanted(spec: Hoist, scene: HoistScene) -> bool:
@@ -180,10 +150,16 @@ STARTS: OneCheck = only(_starts_wanted)(
         scenes=RUNNING,
         loads=("starts_per_hour",),
         sense=Sense.AT_MOST,
-        limit=_starts_limit,
-        needs=lambda spec, scene: (("motor", "starts_per_hour"),),
-        blame=lambda spec, scene, loads: ("duty", "starts_per_hour"),
-        repair=lambda spec, scene: ("duty", "starts_per_hour"),
+        limit=key(
+            "motor.starts_per_hour",
+            meaning="Permitted starts per hour of the manufacturer",
+            valid="motors that are switched on and off; 150, 300 and 600 per hour are usual",
+            error="none: a given value",
+            source="the manufacturer's data",
+        ),
+        needs=needs(("motor", "starts_per_hour")),
+        blame=blames("duty", "starts_per_hour"),
+        repair=at("duty", "starts_per_hour"),
         what="The number of motor starts per hour is at most the manufacturer's limit.",
         why="Each start heats the rotor and wears brake and contactor.",
         formula="Z <= Z_max",
@@ -210,11 +186,7 @@ def _brake_wanted(spec: Hoist, scene: HoistScene) -> bool:
 def _brake_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
     if spec.brake is None:
         return (("brake",),)
-    return _gearbox(spec, scene) if spec.brake.shaft == torques.MOTOR_SHAFT else ()
-
-
-def _brake_key(spec: Hoist, scene: Run, loads: Loads) -> KeyPath:
-    return ("brake", "torque")
+    return (("gearbox",),) if spec.brake.shaft == torques.MOTOR_SHAFT else ()
 
 
 BRAKE: OneCheck = only(_brake_wanted)(
@@ -229,8 +201,8 @@ BRAKE: OneCheck = only(_brake_wanted)(
         sense=Sense.AT_LEAST,
         limit=_brake_limit,
         needs=_brake_needs,
-        blame=_brake_key,
-        repair=lambda spec, scene: ("brake", "torque"),
+        blame=blames("brake", "torque"),
+        repair=at("brake", "torque"),
         what="The torque of the closed brake is at least the group reserve times the torque of the lowering load on"
         " its shaft. The losses reduce this load torque. The load `drop_distance` states the distance that the"
         " load falls if the brake does not hold it.",
@@ -239,17 +211,6 @@ BRAKE: OneCheck = only(_brake_wanted)(
         source="power balance of the gearbox; rules for cranes, quoted from handbooks",
     )
 )
-
-
-def _heat_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Permissible rotor heat per start, from the data sheet.
-
-    **Range** motors with the slip losses inside the rotor.
-    **Error** none: a given value.
-    **Source** the manufacturer's data.
-    """
-    allowed = spec.motor.start_heat if spec.motor is not None else None
-    return Estimate.exact(math.inf if allowed is None else allowed)
 
 
 def _heat_wanted(spec: Hoist, scene: HoistScene) -> bool:
@@ -265,10 +226,16 @@ START_HEAT: OneCheck = only(_heat_wanted)(
         scenes=RUNNING,
         loads=("start_heat",),
         sense=Sense.AT_MOST,
-        limit=_heat_limit,
-        needs=lambda spec, scene: (("gearbox",), ("motor", "no_load_speed")),
-        blame=lambda spec, scene, loads: ("motor", "start_heat"),
-        repair=lambda spec, scene: ("motor", "start_heat"),
+        limit=key(
+            "motor.start_heat",
+            meaning="Permissible rotor heat per start, from the data sheet",
+            valid="motors with the slip losses inside the rotor",
+            error="none: a given value",
+            source="the manufacturer's data",
+        ),
+        needs=needs(("gearbox",), ("motor", "no_load_speed")),
+        blame=blames("motor", "start_heat"),
+        repair=at("motor", "start_heat"),
         what="The rotor heat of a start with the suspended load is at most the data-sheet value.",
         why="In a start, the rotor of a cage motor absorbs at least the energy that the moving masses receive. Excess"
         " heat damages the rotor.",
@@ -276,16 +243,6 @@ START_HEAT: OneCheck = only(_heat_wanted)(
         source="energy of the slip; the manufacturer's data",
     )
 )
-
-
-def _overhauling_limit(spec: Hoist, scene: Run) -> Estimate:
-    """1: the braking torque of the motors is at least the torque of the lowered load.
-
-    **Range** motors with a curve in the file.
-    **Error** none: an equilibrium.
-    **Source** balance of torques on the motor shaft.
-    """
-    return Estimate.exact(1.0)
 
 
 def _lowered(spec: Hoist, scene: HoistScene) -> bool:
@@ -308,9 +265,15 @@ OVERHAULED: OneCheck = only(_lowered)(
         scenes=frozenset({Run, Start}),
         loads=("overhauling_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_overhauling_limit,
-        needs=_gearbox,
-        blame=lambda spec, scene, loads: ("motor", "curve"),
+        limit=fixed(
+            1.0,
+            meaning="1: the braking torque of the motors is at least the torque of the lowered load",
+            valid="motors with a curve in the file",
+            error="none: an equilibrium",
+            source="balance of torques on the motor shaft",
+        ),
+        needs=needs(("gearbox",)),
+        blame=blames("motor", "curve"),
         repair=_braking_repair,
         what="The maximum braking torque of the motor curve above its no-load speed is at least the torque of the"
         " lowered load on the motor shaft. The losses reduce this load torque.",

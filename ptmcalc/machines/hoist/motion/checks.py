@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, blames, no_needs, no_repair
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.drive.checks import curve_number
@@ -79,16 +80,6 @@ LIFT_OFF: Check[Hoist, Lift] = Check(
 )
 
 
-def _lift_limit(spec: Hoist, scene: Lift) -> Estimate:
-    """One hour: a load not lifted within it counts as never lifted.
-
-    **Range** any lift.
-    **Error** none.
-    **Source** a stalled motor overheats within minutes.
-    """
-    return Estimate.exact(_HOUR)
-
-
 def _stall_repair(spec: Hoist, scene: Lift) -> KeyPath:
     """The torque that lifts, where one number says it."""
     if spec.motor is None:
@@ -112,9 +103,14 @@ STALL: Check[Hoist, Lift] = Check(
     scenes=_LIFT,
     loads=("lift_off_time",),
     sense=Sense.AT_MOST,
-    limit=_lift_limit,
+    limit=fixed(
+        _HOUR,
+        meaning="One hour: a load not lifted within it counts as never lifted",
+        valid="any lift",
+        source="a stalled motor overheats within minutes",
+    ),
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("motor",),
+    blame=blames("motor"),
     repair=_stall_repair,
     each=_where_to_lift,
     what="The drive raises the rope force to the weight, and the load leaves the ground. A lift-off time above one"
@@ -169,7 +165,7 @@ WAY: Check[Hoist, Stop] = Check(
     sense=Sense.AT_MOST,
     limit=_way_limit,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("brake", "torque"),
+    blame=blames("brake", "torque"),
     repair=_way_repair,
     each=_where_lowering,
     what="The brake stops the lowered load within the distance given in the file and above the ground. A brake that"
@@ -178,16 +174,6 @@ WAY: Check[Hoist, Stop] = Check(
     formula="s = max drop of the load until it rests <= limit",
     source="motion of drive and load with delay and rise of the brake",
 )
-
-
-def _hard_limit(spec: Hoist, scene: Moving) -> Estimate:
-    """Factor of the file.
-
-    **Range** a file that gives it.
-    **Error** none: a chosen limit.
-    **Source** design of the structure.
-    """
-    return Estimate.exact(spec.checks.lowering_factor or math.inf)
 
 
 def _where_hard(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
@@ -205,7 +191,12 @@ HARD: Check[Hoist, Moving] = Check(
     scenes=_HANGING,
     loads=("lowering_brake_factor",),
     sense=Sense.AT_MOST,
-    limit=_hard_limit,
+    limit=key(
+        "checks.lowering_factor",
+        meaning="Factor of the file",
+        valid="a file that states it",
+        source="design of the structure",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: ("motor",) if isinstance(scene, Start) else ("brake", "torque"),
     repair=lambda spec, scene: () if isinstance(scene, Start) else ("brake", "torque"),
@@ -217,16 +208,6 @@ HARD: Check[Hoist, Moving] = Check(
 )
 
 
-def _slack_limit(spec: Hoist, scene: Moving) -> Estimate:
-    """Minimum ratio of rope force to weight, from the file or 0.05.
-
-    **Range** a load that is suspended throughout.
-    **Error** none: a chosen limit.
-    **Source** practice: a slack rope leaves its groove and is loaded by an impact.
-    """
-    return Estimate.exact(spec.checks.rope_share)
-
-
 SLACK: Check[Hoist, Moving] = Check(
     code="HST124",
     title="minimum rope force ratio",
@@ -236,7 +217,12 @@ SLACK: Check[Hoist, Moving] = Check(
     scenes=_HANGING,
     loads=("rope_force_share",),
     sense=Sense.AT_LEAST,
-    limit=_slack_limit,
+    limit=key(
+        "checks.rope_share",
+        meaning="Minimum ratio of rope force to weight, from the file or 0.05",
+        valid="a load that is suspended throughout",
+        source="practice: a slack rope leaves its groove and is loaded by an impact",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: ("motor",) if isinstance(scene, Start) else ("brake", "torque"),
     repair=lambda spec, scene: () if isinstance(scene, Start) else ("brake", "torque"),
@@ -246,16 +232,6 @@ SLACK: Check[Hoist, Moving] = Check(
     formula="min F/Q >= limit",
     source="a rope never pushes",
 )
-
-
-def _released_limit(spec: Hoist, scene: Release) -> Estimate:
-    """0: below zero the rope is slack.
-
-    **Range** any release.
-    **Error** none: a definition.
-    **Source** a rope carries no compression.
-    """
-    return Estimate.exact(0.0)
 
 
 def _share_key(spec: Hoist, scene: Release) -> KeyPath:
@@ -273,7 +249,13 @@ SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
     scenes=frozenset({Release}),
     loads=("rope_force_min",),
     sense=Sense.AT_LEAST,
-    limit=_released_limit,
+    limit=fixed(
+        0.0,
+        meaning="0: below zero the rope is slack",
+        valid="any release",
+        error="none: a definition",
+        source="a rope carries no compression",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _share_key(spec, scene),
     repair=no_repair,
@@ -282,16 +264,6 @@ SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
     formula="min F > 0; F = (m - dm) g - dm g for a release at once",
     source="EN 13001-2, factor phi_3: negative where the rope goes slack; motion of drive and load",
 )
-
-
-def _impact_limit(spec: Hoist, scene: Moving) -> Estimate:
-    """Permissible ratio of gear torque to steady gear torque, from the file or 3.
-
-    **Range** gears with or without backlash.
-    **Error** none: a chosen limit.
-    **Source** factor phi_5 of EN 13001-2 for drives with considerable backlash: 3.
-    """
-    return Estimate.exact(spec.checks.gear_impact)
 
 
 def _where_play(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
@@ -307,7 +279,12 @@ IMPACT: Check[Hoist, Moving] = Check(
     scenes=_LIFT | _HANGING,
     loads=("gear_impact_factor",),
     sense=Sense.AT_MOST,
-    limit=_impact_limit,
+    limit=key(
+        "checks.gear_impact",
+        meaning="Permissible ratio of gear torque to steady gear torque, from the file or 3",
+        valid="gears with or without backlash",
+        source="factor phi_5 of EN 13001-2 for drives with considerable backlash: 3",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: ("gearbox", "backlash") if spec.gearbox and spec.gearbox.backlash else ("motor",),
     repair=no_repair,

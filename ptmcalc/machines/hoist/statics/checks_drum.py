@@ -5,6 +5,7 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
+from ptmcalc.contract.limits import key
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.model import loaded
@@ -16,16 +17,6 @@ _FLEET, _FLEET_RESISTANT = math.radians(4), math.radians(2)
 makers' manuals, ISO 16625:2013 as they quote it. A larger angle accepts more wear of rope and grooves."""
 
 
-def _room(spec: Hoist, scene: Run) -> Estimate:
-    """Length of the wound part of the drum.
-
-    **Range** any drum.
-    **Error** none: a given value.
-    **Source** the file.
-    """
-    return Estimate.exact(spec.drum.length)
-
-
 CAPACITY: OneCheck = only(loaded)(
     Check(
         code="HST106",
@@ -35,7 +26,9 @@ CAPACITY: OneCheck = only(loaded)(
         scenes=RUNNING,
         loads=("drum_length_required",),
         sense=Sense.AT_MOST,
-        limit=_room,
+        limit=key(
+            "drum.length", meaning="Length of the wound part of the drum", valid="any drum", error="none: a given value"
+        ),
         needs=no_needs,
         blame=blames("drum", "length"),
         repair=at("drum", "length"),
@@ -84,16 +77,6 @@ LAYERS: OneCheck = only(loaded)(
 )
 
 
-def _flange_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Minimum height of the flanges above the top layer, 1.5 rope diameters by default.
-
-    **Range** drums with flanges.
-    **Error** none: a chosen limit.
-    **Source** manufacturers' manuals; EN 14492-2:2006 requires the same.
-    """
-    return Estimate.exact(spec.checks.flange_margin)
-
-
 FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.flange_height is not None)(
     Check(
         code="HST108",
@@ -103,7 +86,12 @@ FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.fl
         scenes=RUNNING,
         loads=("flange_margin",),
         sense=Sense.AT_LEAST,
-        limit=_flange_limit,
+        limit=key(
+            "checks.flange_margin",
+            meaning="Minimum height of the flanges above the top layer, 1.5 rope diameters by default",
+            valid="drums with flanges",
+            source="manufacturers' manuals; EN 14492-2:2006 requires the same",
+        ),
         needs=no_needs,
         blame=blames("drum", "flange_height"),
         repair=at("drum", "flange_height"),
@@ -115,16 +103,6 @@ FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.fl
 )
 
 
-def _slender_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Maximum ratio of wound length to drum diameter, 5 by default.
-
-    **Range** drums on two bearings.
-    **Error** none: an engineering rule; above 3 the shell is also verified for bending.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.drum_slenderness)
-
-
 SLENDER: OneCheck = only(loaded)(
     Check(
         code="HST109",
@@ -134,7 +112,13 @@ SLENDER: OneCheck = only(loaded)(
         scenes=RUNNING,
         loads=("drum_slenderness",),
         sense=Sense.AT_MOST,
-        limit=_slender_limit,
+        limit=key(
+            "checks.drum_slenderness",
+            meaning="Maximum ratio of wound length to drum diameter, 5 by default",
+            valid="drums on two bearings",
+            error="none: an engineering rule; above 3 the shell is also verified for bending",
+            source="handbooks of lifting machines",
+        ),
         needs=no_needs,
         blame=blames("drum", "length"),
         repair=at("drum", "diameter"),
@@ -148,16 +132,6 @@ SLENDER: OneCheck = only(loaded)(
 )
 
 
-def _wraps_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Minimum number of dead wraps, 2 by default.
-
-    **Range** ropes clamped to the drum.
-    **Error** none: a chosen limit.
-    **Source** manufacturers' manuals: 2, some rules 3; rope friction (Euler-Eytelwein) carries most of the rope force.
-    """
-    return Estimate.exact(spec.checks.dead_wraps)
-
-
 DEAD_WRAPS: OneCheck = only(loaded)(
     Check(
         code="HST110",
@@ -167,7 +141,13 @@ DEAD_WRAPS: OneCheck = only(loaded)(
         scenes=RUNNING,
         loads=("dead_wraps",),
         sense=Sense.AT_LEAST,
-        limit=_wraps_limit,
+        limit=key(
+            "checks.dead_wraps",
+            meaning="Minimum number of dead wraps, 2 by default",
+            valid="ropes clamped to the drum",
+            source="manufacturers' manuals: 2, some rules 3; rope friction (Euler-Eytelwein) carries most of the rope"
+            " force",
+        ),
         needs=no_needs,
         blame=blames("drum", "dead_wraps"),
         repair=at("drum", "dead_wraps"),
@@ -224,17 +204,6 @@ FLEET: OneCheck = only(_fleet_wanted)(
 )
 
 
-def _hoop_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Permissible hoop stress of the file.
-
-    **Range** the shell of the drum; half of the yield strength is usual.
-    **Error** none: a given value.
-    **Source** the designer's choice of material.
-    """
-    asked = spec.checks.hoop_stress
-    return Estimate.exact(math.inf if asked is None else asked)
-
-
 def _hoop_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
     needs: tuple[KeyPath, ...] = (("drum", "shell_thickness"), ("checks", "hoop_stress"))
     unknown = model.layer_factor(spec) is None
@@ -255,7 +224,13 @@ HOOP: OneCheck = only(_hoop_wanted)(
         scenes=RUNNING,
         loads=("hoop_stress",),
         sense=Sense.AT_MOST,
-        limit=_hoop_limit,
+        limit=key(
+            "checks.hoop_stress",
+            meaning="Permissible hoop stress of the file",
+            valid="the shell of the drum; half of the yield strength is usual",
+            error="none: a given value",
+            source="the designer's choice of material",
+        ),
         needs=_hoop_needs,
         blame=blames("drum", "shell_thickness"),
         repair=at("drum", "shell_thickness"),

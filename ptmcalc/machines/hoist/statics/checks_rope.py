@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.limits import fixed
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.model import loaded
@@ -182,16 +183,6 @@ EQUALISER_BEND: OneCheck = only(_has_equaliser)(
 )
 
 
-def _slack_limit(spec: Hoist, scene: Run) -> Estimate:
-    """0: the rope stays taut.
-
-    **Range** any reeving.
-    **Error** none: a rope carries no compression.
-    **Source** equilibrium of every sheave.
-    """
-    return Estimate.exact(0.0)
-
-
 SLACK: OneCheck = only(lambda spec, scene: spec.hook_block > 0)(
     Check(
         code="HST105",
@@ -202,7 +193,13 @@ SLACK: OneCheck = only(lambda spec, scene: spec.hook_block > 0)(
         scenes=RUNNING,
         loads=("rope_pull_empty",),
         sense=Sense.AT_LEAST,
-        limit=_slack_limit,
+        limit=fixed(
+            0.0,
+            meaning="0: the rope stays taut",
+            valid="any reeving",
+            error="none: a rope carries no compression",
+            source="equilibrium of every sheave",
+        ),
         needs=no_needs,
         blame=blames("hook_block"),
         repair=at("hook_block"),

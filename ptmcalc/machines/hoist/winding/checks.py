@@ -1,8 +1,8 @@
 """The checks of a rope that climbs to its next layer."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.hoist.spec import Hoist, WindUp
 
 WINDING = frozenset({WindUp})
@@ -10,26 +10,6 @@ WINDING = frozenset({WindUp})
 
 def _speed_key(spec: Hoist, scene: WindUp) -> KeyPath:
     return ("speed", "drum" if spec.speed.drum is not None else "main")
-
-
-def _most_ratio(spec: Hoist, scene: WindUp) -> Estimate:
-    """Maximum ratio of dynamic to mean rope stress, `checks: {winding_stress_ratio: ...}`.
-
-    **Range** any rope.
-    **Error** none: a given value.
-    **Source** an engineering choice of 10 %: covered by rope safety factors for static force.
-    """
-    return Estimate.exact(spec.checks.winding_stress_ratio)
-
-
-def _least_detuning(spec: Hoist, scene: WindUp) -> Estimate:
-    """Minimum separation of the crossovers from resonance, `checks: {crossover_detuning: ...}`.
-
-    **Range** light damping.
-    **Error** none: a given value.
-    **Source** an engineering choice of 20 %, at which an undamped oscillation is magnified three times.
-    """
-    return Estimate.exact(spec.checks.crossover_detuning)
 
 
 WINDING_STRESS: Check[Hoist, WindUp] = Check(
@@ -40,7 +20,13 @@ WINDING_STRESS: Check[Hoist, WindUp] = Check(
     scenes=WINDING,
     loads=("winding_stress_ratio",),
     sense=Sense.AT_MOST,
-    limit=_most_ratio,
+    limit=key(
+        "checks.winding_stress_ratio",
+        meaning="Maximum ratio of dynamic to mean rope stress, `checks: {winding_stress_ratio: ...}`",
+        valid="any rope",
+        error="none: a given value",
+        source="an engineering choice of 10 %: covered by rope safety factors for static force",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _speed_key(spec, scene),
     repair=_speed_key,
@@ -59,7 +45,13 @@ CROSSOVER_RESONANCE: Check[Hoist, WindUp] = Check(
     scenes=WINDING,
     loads=("winding_detuning",),
     sense=Sense.AT_LEAST,
-    limit=_least_detuning,
+    limit=key(
+        "checks.crossover_detuning",
+        meaning="Minimum separation of the crossovers from resonance, `checks: {crossover_detuning: ...}`",
+        valid="light damping",
+        error="none: a given value",
+        source="an engineering choice of 20 %, at which an undamped oscillation is magnified three times",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _speed_key(spec, scene),
     repair=_speed_key,

@@ -6,22 +6,13 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import InductionBase
-from ptmcalc.contract.check import Check, Sense, no_needs
+from ptmcalc.contract.check import Check, Sense, needs, no_needs
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.shaft.motor_keys import blame_motor, motor_that_can_vary
 from ptmcalc.machines.shaft.spec import Shaft, ShaftScene, Steady
 
 Loads = Mapping[str, Estimate]
 _BELOW_ONE = math.nextafter(1.0, 0.0)
-
-
-def _motion_limit(spec: Shaft, scene: Steady) -> Estimate:
-    """1: the loss factor stays below it.
-
-    **Range** any machine.
-    **Error** none.
-    **Source** lecture notes Kramatorsk, chapter 6: at 1 motion is impossible.
-    """
-    return Estimate.exact(_BELOW_ONE)
 
 
 def _motion_value(spec: Shaft, scene: Steady, loads: Loads) -> Estimate:
@@ -48,7 +39,12 @@ MOTION: Check[Shaft, Steady] = Check(
     loads=("loss_factor", "speed_min"),
     value=_motion_value,
     sense=Sense.AT_MOST,
-    limit=_motion_limit,
+    limit=fixed(
+        _BELOW_ONE,
+        meaning="1: the loss factor stays below it",
+        valid="any machine",
+        source="lecture notes Kramatorsk, chapter 6: at 1 motion is impossible",
+    ),
     needs=no_needs,
     blame=blame_motor,
     repair=motor_that_can_vary,
@@ -60,18 +56,6 @@ MOTION: Check[Shaft, Steady] = Check(
 )
 
 
-def _even_limit(spec: Shaft, scene: Steady) -> Estimate:
-    """Permissible coefficient of speed fluctuation of the file.
-
-    **Range** 1/5 to 1/30 for presses and pumps, 1/40 to 1/100 for machine tools and looms, 1/100 to 1/300 for
-    generators.
-    **Error** none: a chosen limit.
-    **Source** usual values of textbooks of the theory of machines.
-    """
-    asked = spec.checks.irregularity
-    return Estimate.exact(math.inf if asked is None else asked)
-
-
 EVEN: Check[Shaft, Steady] = Check(
     code="SHF102",
     title="coefficient of speed fluctuation",
@@ -80,8 +64,14 @@ EVEN: Check[Shaft, Steady] = Check(
     scenes=frozenset({Steady}),
     loads=("irregularity",),
     sense=Sense.AT_MOST,
-    limit=_even_limit,
-    needs=lambda spec, scene: (("checks", "irregularity"),),
+    limit=key(
+        "checks.irregularity",
+        meaning="Permissible coefficient of speed fluctuation of the file",
+        valid="1/5 to 1/30 for presses and pumps, 1/40 to 1/100 for machine tools and looms, 1/100 to 1/300 for"
+        " generators",
+        source="usual values of textbooks of the theory of machines",
+    ),
+    needs=needs(("checks", "irregularity")),
     blame=lambda spec, scene, loads: _inertia_key(spec),
     repair=lambda spec, scene: _inertia_key(spec) if spec.inertia.type != "table" else (),
     what="The coefficient of speed fluctuation of the main shaft over the steady cycle is at most the limit.",

@@ -5,24 +5,14 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import Check, LimitState, Sense
+from ptmcalc.contract.check import Check, LimitState, Sense, needs
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.shaft.motor_keys import blame_motor, motor_that_can_vary
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
 from ptmcalc.machines.shaft.speed_changes.cases import is_braked
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]
-
-
-def _run_up_limit(spec: Shaft, scene: RunUp) -> Estimate:
-    """Maximum run-up time of the file.
-
-    **Range** cage motors withstand 5 to 10 s of direct-on-line starting, see the manufacturer's catalogue.
-    **Error** none: a chosen limit.
-    **Source** the design's own requirement.
-    """
-    asked = spec.checks.run_up_time
-    return Estimate.exact(math.inf if asked is None else asked)
 
 
 RUN_UP: Check[Shaft, RunUp] = Check(
@@ -34,8 +24,13 @@ RUN_UP: Check[Shaft, RunUp] = Check(
     scenes=frozenset({RunUp}),
     loads=("run_up_time",),
     sense=Sense.AT_MOST,
-    limit=_run_up_limit,
-    needs=lambda spec, scene: (("checks", "run_up_time"),),
+    limit=key(
+        "checks.run_up_time",
+        meaning="Maximum run-up time of the file",
+        valid="cage motors withstand 5 to 10 s of direct-on-line starting, see the manufacturer's catalogue",
+        source="the design's own requirement",
+    ),
+    needs=needs(("checks", "run_up_time")),
     blame=blame_motor,
     repair=motor_that_can_vary,
     what="The motor accelerates the shaft from standstill to its speed within the maximum run-up time. A motor that"
@@ -69,28 +64,6 @@ def _stop_repair(spec: Shaft, scene: RunOut) -> KeyPath:
     return ("brake", "torque") if spec.brake is not None else ()
 
 
-def _stop_angle_limit(spec: Shaft, scene: RunOut) -> Estimate:
-    """Permissible stopping angle of the file.
-
-    **Range** for presses the angle permitted by safeguarding between the signal and the closing of the tool.
-    **Error** none: a chosen limit.
-    **Source** the design's own requirement.
-    """
-    asked = spec.checks.stop_angle
-    return Estimate.exact(math.inf if asked is None else asked)
-
-
-def _stop_time_limit(spec: Shaft, scene: RunOut) -> Estimate:
-    """Permissible stopping time of the file.
-
-    **Range** for a safeguard at a distance S from the tool at most S/(1.6 m/s) less its own response time.
-    **Error** none: a chosen limit.
-    **Source** the design's own requirement; walking speed of 1.6 m/s from ISO 13855.
-    """
-    asked = spec.checks.stop_time
-    return Estimate.exact(math.inf if asked is None else asked)
-
-
 STOP_ANGLE: Check[Shaft, RunOut] = _WhenBraked(
     code="SHF105",
     title="shaft stopping angle",
@@ -99,8 +72,13 @@ STOP_ANGLE: Check[Shaft, RunOut] = _WhenBraked(
     scenes=frozenset({RunOut}),
     loads=("run_out_angle",),
     sense=Sense.AT_MOST,
-    limit=_stop_angle_limit,
-    needs=lambda spec, scene: (("brake", "torque"), ("checks", "stop_angle")),
+    limit=key(
+        "checks.stop_angle",
+        meaning="Permissible stopping angle of the file",
+        valid="for presses the angle permitted by safeguarding between the signal and the closing of the tool",
+        source="the design's own requirement",
+    ),
+    needs=needs(("brake", "torque"), ("checks", "stop_angle")),
     blame=_blame_brake,
     repair=_stop_repair,
     what="With the drive off and the brake on, the stopping angle of the shaft is at most the limit. The stop begins"
@@ -117,8 +95,13 @@ STOP_TIME: Check[Shaft, RunOut] = _WhenBraked(
     scenes=frozenset({RunOut}),
     loads=("run_out_time",),
     sense=Sense.AT_MOST,
-    limit=_stop_time_limit,
-    needs=lambda spec, scene: (("brake", "torque"), ("checks", "stop_time")),
+    limit=key(
+        "checks.stop_time",
+        meaning="Permissible stopping time of the file",
+        valid="for a safeguard at a distance S from the tool at most S/(1.6 m/s) less its own response time",
+        source="the design's own requirement; walking speed of 1.6 m/s from ISO 13855",
+    ),
+    needs=needs(("brake", "torque"), ("checks", "stop_time")),
     blame=_blame_brake,
     repair=_stop_repair,
     what="With the drive off and the brake on, the stopping time of the shaft is at most the limit. The stop begins at"

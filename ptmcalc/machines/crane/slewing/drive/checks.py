@@ -5,20 +5,10 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, torque_key, torque_repair, turns
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
-
-
-def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Minimum ratio of starting torque to steady slewing torque, 1.1 by default.
-
-    **Range** motors that start against friction, steady wind and slope.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.starting_reserve)
-
 
 STALL: OneCheck = Check(
     code="CRN101",
@@ -29,7 +19,13 @@ STALL: OneCheck = Check(
     scenes=SLEWING,
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
-    limit=_reserve_limit,
+    limit=key(
+        "checks.starting_reserve",
+        meaning="Minimum ratio of starting torque to steady slewing torque, 1.1 by default",
+        valid="motors that start against friction, steady wind and slope",
+        error="none: an engineering rule",
+        source="handbooks of lifting machines",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: torque_key(spec, scene),
     repair=torque_repair,
@@ -42,16 +38,6 @@ STALL: OneCheck = Check(
 )
 
 
-def _at_least_steady(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """The steady slewing torque.
-
-    **Range** torque-speed curves, from standstill to the slewing speed.
-    **Error** none: a balance of torques.
-    **Source** balance of torques about the slewing axis.
-    """
-    return Estimate.exact(1.0)
-
-
 SPEED: OneCheck = only(lambda spec, scene: model.least_torque(spec, scene) is not None)(
     Check(
         code="CRN118",
@@ -61,7 +47,13 @@ SPEED: OneCheck = only(lambda spec, scene: model.least_torque(spec, scene) is no
         scenes=SLEWING,
         loads=("speed_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_at_least_steady,
+        limit=fixed(
+            1.0,
+            meaning="The steady slewing torque",
+            valid="torque-speed curves, from standstill to the slewing speed",
+            error="none: a balance of torques",
+            source="balance of torques about the slewing axis",
+        ),
         needs=no_needs,
         blame=blames("motor", "curve"),
         repair=no_repair,
@@ -79,14 +71,13 @@ def _rating(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
     return ("motor", *spec.motor.rating_key)
 
 
-def _all_of_it(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """The full rating.
-
-    **Range** ratings of the manufacturer.
-    **Error** none: a definition.
-    **Source** IEC 60034-1; catalogues.
-    """
-    return Estimate.exact(1.0)
+_ALL_OF_IT = fixed(
+    1.0,
+    meaning="The full rating",
+    valid="ratings of the manufacturer",
+    error="none: a definition",
+    source="IEC 60034-1; catalogues",
+)
 
 
 HEATING: OneCheck = only(turns)(
@@ -98,7 +89,7 @@ HEATING: OneCheck = only(turns)(
         scenes=SLEWING,
         loads=("heating_utilisation",),
         sense=Sense.AT_MOST,
-        limit=_all_of_it,
+        limit=_ALL_OF_IT,
         needs=lambda spec, scene: () if spec.motor.rated is not None else (("motor", "rated_torque"),),
         blame=lambda spec, scene, loads: _rating(spec, scene),
         repair=_rating,
@@ -143,17 +134,6 @@ OVERLOAD: OneCheck = only(lambda spec, scene: spec.motor.largest_torque is not N
 )
 
 
-def _gearbox_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Rated torque of the gearbox at its input shaft, for its mechanism group.
-
-    **Range** the catalogue rating at the motor speed.
-    **Error** none: a given value.
-    **Source** the manufacturer's catalogue.
-    """
-    rated = spec.gear.rated_torque
-    return Estimate.exact(math.inf if rated is None else rated)
-
-
 GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)(
     Check(
         code="CRN109",
@@ -163,7 +143,13 @@ GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)
         scenes=SLEWING,
         loads=("torque_worm",),
         sense=Sense.AT_MOST,
-        limit=_gearbox_rating,
+        limit=key(
+            "gear.rated_torque",
+            meaning="Rated torque of the gearbox at its input shaft, for its mechanism group",
+            valid="the catalogue rating at the motor speed",
+            error="none: a given value",
+            source="the manufacturer's catalogue",
+        ),
         needs=no_needs,
         blame=blames("gear", "rated_torque"),
         repair=at("gear", "rated_torque"),
@@ -176,17 +162,6 @@ GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)
 )
 
 
-def _pinion_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Permissible torque of the open pinion for its service life.
-
-    **Range** from the designer's calculation of the teeth.
-    **Error** none: a given value.
-    **Source** the file.
-    """
-    rated = spec.gear.pinion_torque
-    return Estimate.exact(math.inf if rated is None else rated)
-
-
 PINION: OneCheck = only(lambda spec, scene: spec.gear.pinion_torque is not None)(
     Check(
         code="CRN116",
@@ -196,7 +171,12 @@ PINION: OneCheck = only(lambda spec, scene: spec.gear.pinion_torque is not None)
         scenes=SLEWING,
         loads=("torque_pinion",),
         sense=Sense.AT_MOST,
-        limit=_pinion_rating,
+        limit=key(
+            "gear.pinion_torque",
+            meaning="Permissible torque of the open pinion for its service life",
+            valid="from the designer's calculation of the teeth",
+            error="none: a given value",
+        ),
         needs=needs(("gear", "open")),
         blame=blames("gear", "pinion_torque"),
         repair=at("gear", "pinion_torque"),
@@ -228,7 +208,7 @@ LOCKS: OneCheck = only(_driven_back)(
         scenes=SLEWING,
         loads=("gear_locks",),
         sense=Sense.AT_MOST,
-        limit=_all_of_it,
+        limit=_ALL_OF_IT,
         needs=no_needs,
         blame=blames("gear", "efficiency"),
         repair=no_repair,

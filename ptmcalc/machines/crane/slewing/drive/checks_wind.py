@@ -2,24 +2,22 @@
 
 import math
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import braking_number_at
 from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, needs, no_needs, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.drive import reserves
 from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, torque_repair
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
-
-def _holding(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Minimum ratio of the torque to that of the maximum in-service wind, 1 by default.
-
-    **Range** in-service wind; out of service the crane slews freely or is locked.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines; FEM 1.001 and EN 13001-2 for the wind itself.
-    """
-    return Estimate.exact(spec.checks.holding_reserve)
+_HOLDING = key(
+    "checks.holding_reserve",
+    meaning="Minimum ratio of the torque to that of the maximum in-service wind, 1 by default",
+    valid="in-service wind; out of service the crane slews freely or is locked",
+    error="none: an engineering rule",
+    source="handbooks of lifting machines; FEM 1.001 and EN 13001-2 for the wind itself",
+)
 
 
 def _blown(spec: SlewingCrane, scene: SlewingScene) -> bool:
@@ -29,9 +27,9 @@ def _blown(spec: SlewingCrane, scene: SlewingScene) -> bool:
 def _wind_key(spec: SlewingCrane) -> KeyPath:
     gusty = spec.wind.gust_torque > 0 and spec.wind.maximum_torque == spec.wind.steady_torque + spec.wind.gust_torque
     keys = ("gust", "gust_pressure") if gusty else ("maximum", "maximum_pressure")
-    for key in (*keys, "steady", "steady_pressure"):
-        if getattr(spec.wind, key) is not None:
-            return ("wind", key)
+    for name in (*keys, "steady", "steady_pressure"):
+        if getattr(spec.wind, name) is not None:
+            return ("wind", name)
     return ("slope",)
 
 
@@ -45,7 +43,7 @@ WIND_MOTOR: OneCheck = only(_blown)(
         scenes=SLEWING,
         loads=("wind_reserve_motor",),
         sense=Sense.AT_LEAST,
-        limit=_holding,
+        limit=_HOLDING,
         needs=no_needs,
         blame=lambda spec, scene, loads: _wind_key(spec),
         repair=torque_repair,
@@ -57,16 +55,6 @@ WIND_MOTOR: OneCheck = only(_blown)(
         source="balance of torques about the slewing axis",
     )
 )
-
-
-def _overhauling_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """1: the braking torque of the motors is at least the overhauling torque of wind and slope.
-
-    **Range** motors with a curve in the file.
-    **Error** none: an equilibrium.
-    **Source** balance of torques about the slewing axis.
-    """
-    return Estimate.exact(1.0)
 
 
 def _driven(spec: SlewingCrane, scene: SlewingScene) -> bool:
@@ -88,7 +76,13 @@ OVERHAULED: OneCheck = only(_driven)(
         scenes=SLEWING,
         loads=("overhauling_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_overhauling_limit,
+        limit=fixed(
+            1.0,
+            meaning="1: the braking torque of the motors is at least the overhauling torque of wind and slope",
+            valid="motors with a curve in the file",
+            error="none: an equilibrium",
+            source="balance of torques about the slewing axis",
+        ),
         needs=no_needs,
         blame=blames("motor", "curve"),
         repair=_braking_repair,
@@ -111,7 +105,7 @@ WIND_BRAKE: OneCheck = only(_blown)(
         scenes=SLEWING,
         loads=("wind_reserve_brake",),
         sense=Sense.AT_LEAST,
-        limit=_holding,
+        limit=_HOLDING,
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),

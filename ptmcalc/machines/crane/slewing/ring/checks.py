@@ -1,20 +1,8 @@
 """Check of the slewing ring against its limit curve."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.check import Check, Sense, blames, no_repair, only
+from ptmcalc.contract.limits import fixed
 from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
-
-
-def _curve(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Permissible moment of the limiting load curve of the catalogue at this axial force.
-
-    **Range** linear between the points of the curve; zero beyond the last point.
-    **Error** none: a given curve.
-    **Source** the manufacturer's catalogue.
-    """
-    return Estimate.exact(1.0)
-
 
 RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
     Check(
@@ -25,7 +13,13 @@ RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
         scenes=SLEWING,
         loads=("ring_utilisation",),
         sense=Sense.AT_MOST,
-        limit=_curve,
+        limit=fixed(
+            1.0,
+            meaning="Permissible moment of the limiting load curve of the catalogue at this axial force",
+            valid="linear between the points of the curve; zero beyond the last point",
+            error="none: a given curve",
+            source="the manufacturer's catalogue",
+        ),
         needs=lambda spec, scene: (
             (("load",),) if spec.inertia is None else (("load",), ("ring", "mass_above"), ("ring", "unbalance"))
         ),

@@ -1,20 +1,8 @@
 """Checks of start and stop: times and angles."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, needs, no_needs, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, reaches, starts, torque_key, torque_repair, turns
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
-
-
-def _longest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Maximum starting time, 10 s by default.
-
-    **Range** slewing cranes in service.
-    **Error** none: an engineering rule; 4 to 10 s are usual.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.start_time)
-
 
 SLOW: OneCheck = only(reaches)(
     Check(
@@ -26,7 +14,13 @@ SLOW: OneCheck = only(reaches)(
         scenes=SLEWING,
         loads=("start_time",),
         sense=Sense.AT_MOST,
-        limit=_longest_start,
+        limit=key(
+            "checks.start_time",
+            meaning="Maximum starting time, 10 s by default",
+            valid="slewing cranes in service",
+            error="none: an engineering rule; 4 to 10 s are usual",
+            source="handbooks of lifting machines",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: torque_key(spec, scene),
         repair=torque_repair,
@@ -38,16 +32,6 @@ SLOW: OneCheck = only(reaches)(
 )
 
 
-def _shortest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Minimum starting time, 1 s by default.
-
-    **Range** slewing cranes in service.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.least_start_time)
-
-
 HARSH: OneCheck = only(turns)(
     Check(
         code="CRN103",
@@ -57,7 +41,13 @@ HARSH: OneCheck = only(turns)(
         scenes=SLEWING,
         loads=("start_time",),
         sense=Sense.AT_LEAST,
-        limit=_shortest_start,
+        limit=key(
+            "checks.least_start_time",
+            meaning="Minimum starting time, 1 s by default",
+            valid="slewing cranes in service",
+            error="none: an engineering rule",
+            source="handbooks of lifting machines",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: torque_key(spec, scene),
         repair=torque_repair,
@@ -69,16 +59,6 @@ HARSH: OneCheck = only(turns)(
 )
 
 
-def _whole_rotation(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """The whole slewing angle.
-
-    **Range** any rotation.
-    **Error** none: a definition.
-    **Source** start and stop are parts of one slewing motion.
-    """
-    return Estimate.exact(1.0)
-
-
 SHORT: OneCheck = only(turns)(
     Check(
         code="CRN106",
@@ -88,7 +68,13 @@ SHORT: OneCheck = only(turns)(
         scenes=SLEWING,
         loads=("rotation_used",),
         sense=Sense.AT_MOST,
-        limit=_whole_rotation,
+        limit=fixed(
+            1.0,
+            meaning="The whole slewing angle",
+            valid="any rotation",
+            error="none: a definition",
+            source="start and stop are parts of one slewing motion",
+        ),
         needs=no_needs,
         blame=blames("cycle", "rotation"),
         repair=at("cycle", "rotation"),
@@ -100,16 +86,6 @@ SHORT: OneCheck = only(turns)(
 )
 
 
-def _allowed_angle(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Permissible stopping angle, given in the file.
-
-    **Range** 15 deg in light duty.
-    **Error** none: a given value.
-    **Source** course notes on the slewing crane on a fixed column (3.5.2.2).
-    """
-    return Estimate.exact(spec.cycle.brake_angle)
-
-
 BRAKE_ANGLE: OneCheck = only(starts)(
     Check(
         code="CRN104",
@@ -119,7 +95,13 @@ BRAKE_ANGLE: OneCheck = only(starts)(
         scenes=SLEWING,
         loads=("brake_angle",),
         sense=Sense.AT_MOST,
-        limit=_allowed_angle,
+        limit=key(
+            "cycle.brake_angle",
+            meaning="Permissible stopping angle, given in the file",
+            valid="15 deg in light duty",
+            error="none: a given value",
+            source="course notes on the slewing crane on a fixed column (3.5.2.2)",
+        ),
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),
@@ -132,16 +114,6 @@ BRAKE_ANGLE: OneCheck = only(starts)(
 )
 
 
-def _longest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Maximum stopping time, 10 s by default.
-
-    **Range** slewing cranes in service.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.brake_time)
-
-
 BRAKE_TIME: OneCheck = only(starts)(
     Check(
         code="CRN105",
@@ -152,7 +124,13 @@ BRAKE_TIME: OneCheck = only(starts)(
         scenes=SLEWING,
         loads=("brake_time",),
         sense=Sense.AT_MOST,
-        limit=_longest_stop,
+        limit=key(
+            "checks.brake_time",
+            meaning="Maximum stopping time, 10 s by default",
+            valid="slewing cranes in service",
+            error="none: an engineering rule",
+            source="handbooks of lifting machines",
+        ),
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),
@@ -166,16 +144,6 @@ BRAKE_TIME: OneCheck = only(starts)(
 )
 
 
-def _shortest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Minimum stopping time, 1 s by default.
-
-    **Range** slewing cranes in service; an emergency stop may be shorter.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.least_brake_time)
-
-
 HARSH_STOP: OneCheck = only(turns)(
     Check(
         code="CRN119",
@@ -185,7 +153,13 @@ HARSH_STOP: OneCheck = only(turns)(
         scenes=SLEWING,
         loads=("brake_time",),
         sense=Sense.AT_LEAST,
-        limit=_shortest_stop,
+        limit=key(
+            "checks.least_brake_time",
+            meaning="Minimum stopping time, 1 s by default",
+            valid="slewing cranes in service; an emergency stop may be shorter",
+            error="none: an engineering rule",
+            source="handbooks of lifting machines",
+        ),
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),

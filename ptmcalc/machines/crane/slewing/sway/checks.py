@@ -2,22 +2,20 @@
 
 import math
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, at, blames, needs, only
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, curve_number, torque_key, turns
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
-
-def _allowed_sway(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Maximum angle of the hoist rope, 10 deg by default.
-
-    **Range** an agreement between manufacturer and user; grabs and containers require less.
-    **Error** none: an engineering rule.
-    **Source** practice of cranes: 3 to 10 deg in service.
-    """
-    return Estimate.exact(spec.checks.sway)
+_ALLOWED_SWAY = key(
+    "checks.sway",
+    meaning="Maximum angle of the hoist rope, 10 deg by default",
+    valid="an agreement between manufacturer and user; grabs and containers require less",
+    error="none: an engineering rule",
+    source="practice of cranes: 3 to 10 deg in service",
+)
 
 
 _ROPE = (("load",), ("load", "rope_length"))
@@ -38,7 +36,7 @@ RADIAL: OneCheck = only(_swings)(
         scenes=SLEWING,
         loads=("sway_radial_max",),
         sense=Sense.AT_MOST,
-        limit=_allowed_sway,
+        limit=_ALLOWED_SWAY,
         needs=needs(*_ROPE),
         blame=blames("speed"),
         repair=at("speed"),
@@ -73,7 +71,7 @@ TANGENTIAL: OneCheck = only(_swings)(
         scenes=SLEWING,
         loads=("sway_tangential_max",),
         sense=Sense.AT_MOST,
-        limit=_allowed_sway,
+        limit=_ALLOWED_SWAY,
         needs=needs(*_ROPE),
         blame=lambda spec, scene, loads: _thrown_by(spec, scene),
         repair=lambda spec, scene: curve_number(spec, _thrown_by(spec, scene)),

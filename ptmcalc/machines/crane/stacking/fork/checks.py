@@ -5,7 +5,8 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.fork.cases import catch_of, push_of
 from ptmcalc.machines.crane.stacking.judging import OneCheck, given
@@ -19,16 +20,6 @@ from ptmcalc.spec.scene import Scene
 
 CAUGHT: frozenset[type[Scene]] = frozenset({ForkCaught})
 PUSHES: frozenset[type[Scene]] = frozenset({ForkPush})
-
-
-def _factor_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Design factor of the hoist: permissible ratio of rope force to weight.
-
-    **Range** any hoist.
-    **Error** none: a limit of the file.
-    **Source** the file.
-    """
-    return given(spec.checks.fork_caught_factor)
 
 
 def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
@@ -67,7 +58,12 @@ FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is no
         loads=("rope_force_caught",),
         value=_of_rated,
         sense=Sense.AT_MOST,
-        limit=_factor_limit,
+        limit=key(
+            "checks.fork_caught_factor",
+            meaning="Design factor of the hoist: permissible ratio of rope force to weight",
+            valid="any hoist",
+            error="none: a limit of the file",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: _hoist_key(spec, scene),
         repair=_hoist_key,
@@ -102,7 +98,7 @@ ROPE: OneCheck = Check(
     loads=("rope_force_caught",),
     sense=Sense.AT_MOST,
     limit=_rope_limit,
-    needs=lambda spec, scene: (("hoisting", "rope", "breaking_force"),),
+    needs=needs(("hoisting", "rope", "breaking_force")),
     blame=blames("hoisting", "rope", "breaking_force"),
     repair=at("hoisting", "rope", "breaking_force"),
     what="The total breaking force of the carriage rope falls is at least the rope force of a fork that snags during"
@@ -112,16 +108,6 @@ ROPE: OneCheck = Check(
     formula="F <= n F_b",
     source="equilibrium of the carriage; the manufacturer of the rope",
 )
-
-
-def _rack_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible uplift of the fork on the rack.
-
-    **Range** any rack.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of the rack.
-    """
-    return given(spec.rack.rating_vertical)
 
 
 RACK: OneCheck = only(
@@ -135,7 +121,13 @@ RACK: OneCheck = only(
         scenes=CAUGHT,
         loads=("rack_force",),
         sense=Sense.AT_MOST,
-        limit=_rack_limit,
+        limit=key(
+            "rack.rating_vertical",
+            meaning="Permissible uplift of the fork on the rack",
+            valid="any rack",
+            error="none: a limit of the file",
+            source="the manufacturer of the rack",
+        ),
         needs=no_needs,
         blame=blames("rack", "rating_vertical"),
         repair=at("rack", "rating_vertical"),
@@ -147,16 +139,6 @@ RACK: OneCheck = only(
 )
 
 
-def _push_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible thrust of the fork on the rack.
-
-    **Range** any rack.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of the rack.
-    """
-    return given(spec.rack.rating_push)
-
-
 PUSH: OneCheck = Check(
     code="CRN287",
     title="fork thrust on the rack",
@@ -165,8 +147,14 @@ PUSH: OneCheck = Check(
     scenes=PUSHES,
     loads=("fork_push_force",),
     sense=Sense.AT_MOST,
-    limit=_push_limit,
-    needs=lambda spec, scene: (("rack", "rating_push"),),
+    limit=key(
+        "rack.rating_push",
+        meaning="Permissible thrust of the fork on the rack",
+        valid="any rack",
+        error="none: a limit of the file",
+        source="the manufacturer of the rack",
+    ),
+    needs=needs(("rack", "rating_push")),
     blame=blames("rack", "rating_push"),
     repair=at("rack", "rating_push"),
     what="The thrust of the fork that extends against the rack is at most the rating of the rack across the aisle.",
@@ -174,16 +162,6 @@ PUSH: OneCheck = Check(
     formula="F = P + (P^2 + K m v^2)^(1/2),   with a slip clutch P_c + v (K m)^(1/2)",
     source="energy of the fork's drive; lecture notes Kramatorsk 2007, table 11.2, combination 3",
 )
-
-
-def _telescope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible thrust of the telescopic fork.
-
-    **Range** any fork.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of the fork.
-    """
-    return given(spec.fork.rating if spec.fork is not None else None)
 
 
 def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
@@ -205,7 +183,13 @@ TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fo
         scenes=PUSHES,
         loads=("fork_push_force",),
         sense=Sense.AT_MOST,
-        limit=_telescope_limit,
+        limit=key(
+            "fork.rating",
+            meaning="Permissible thrust of the telescopic fork",
+            valid="any fork",
+            error="none: a limit of the file",
+            source="the manufacturer of the fork",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: _push_key(spec, scene),
         repair=_push_key,
@@ -219,16 +203,6 @@ TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fo
 )
 
 
-def _limiter_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """1: the limiter trips above the force of normal hoisting.
-
-    **Range** any limiter.
-    **Error** none: statics.
-    **Source** equilibrium of the carriage with its inertia.
-    """
-    return Estimate.exact(1.0)
-
-
 LIMITER: OneCheck = only(lambda spec, scene: spec.hoisting.limiter is not None)(
     Check(
         code="CRN289",
@@ -238,7 +212,13 @@ LIMITER: OneCheck = only(lambda spec, scene: spec.hoisting.limiter is not None)(
         scenes=CAUGHT,
         loads=("limiter_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_limiter_limit,
+        limit=fixed(
+            1.0,
+            meaning="1: the limiter trips above the force of normal hoisting",
+            valid="any limiter",
+            error="none: statics",
+            source="equilibrium of the carriage with its inertia",
+        ),
         needs=no_needs,
         blame=blames("hoisting", "limiter", "force"),
         repair=at("hoisting", "limiter", "force"),

@@ -1,10 +1,10 @@
 """Checks of the column's motion: how far it swings, how long, and what it and an obstacle do to each other."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, needs, no_needs, no_repair, only
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, block, given, of_the_mechanism
+from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, block, of_the_mechanism
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import turns
@@ -40,16 +40,6 @@ def _rate_repair(spec: Stacker, scene: StackerScene) -> KeyPath:
 # -- the swing ------------------------------------------------------------------------------------------------------
 
 
-def _deflection_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible dynamic deflection of the mast tip, given in the file.
-
-    **Range** any stacker crane.
-    **Error** none: a limit of the file.
-    **Source** the file: the lecture notes do not contain the formula, and no other source is known.
-    """
-    return given(spec.checks.mast_deflection)
-
-
 def _asks_deflection(spec: Stacker, scene: StackerScene) -> bool:
     return spec.checks.mast_deflection is not None and not turns(spec, scene)
 
@@ -63,7 +53,13 @@ DEFLECTION: OneCheck = only(_asks_deflection)(
         scenes=DRIVEN,
         loads=("mast_deflection_max",),
         sense=Sense.AT_MOST,
-        limit=_deflection_limit,
+        limit=key(
+            "checks.mast_deflection",
+            meaning="Permissible dynamic deflection of the mast tip, given in the file",
+            valid="any stacker crane",
+            error="none: a limit of the file",
+            source="the file: the lecture notes do not contain the formula, and no other source is known",
+        ),
         needs=no_needs,
         blame=_rate_blame,
         repair=_rate_repair,
@@ -75,14 +71,12 @@ DEFLECTION: OneCheck = only(_asks_deflection)(
 )
 
 
-def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible mast force on its support, given in the file.
-
-    **Range** any stacker crane.
-    **Error** none: a limit of the file.
-    **Source** the file.
-    """
-    return given(spec.checks.column_force)
+_FORCE_LIMIT = key(
+    "checks.column_force",
+    meaning="Permissible mast force on its support, given in the file",
+    valid="any stacker crane",
+    error="none: a limit of the file",
+)
 
 
 def _asks_force(spec: Stacker, scene: StackerScene) -> bool:
@@ -98,7 +92,7 @@ PULL: OneCheck = only(_asks_force)(
         scenes=DRIVEN,
         loads=("mast_force_max",),
         sense=Sense.AT_MOST,
-        limit=_force_limit,
+        limit=_FORCE_LIMIT,
         needs=no_needs,
         blame=_rate_blame,
         repair=_rate_repair,
@@ -112,16 +106,6 @@ PULL: OneCheck = only(_asks_force)(
 )
 
 # -- settling -------------------------------------------------------------------------------------------------------
-
-
-def _wait_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible settling time of the mast into the positioning tolerance, from standstill.
-
-    **Range** any stacker crane.
-    **Error** none: a limit of the file.
-    **Source** the file: no standard specifies it.
-    """
-    return given(spec.settling.wait)
 
 
 def _asks_wait(spec: Stacker, scene: StackerScene) -> bool:
@@ -150,8 +134,14 @@ SETTLES: OneCheck = only(_asks_wait)(
         scenes=frozenset({Brake}),
         loads=("settling_time",),
         sense=Sense.AT_MOST,
-        limit=_wait_limit,
-        needs=lambda spec, scene: (("column", "log_decrement"),),
+        limit=key(
+            "settling.wait",
+            meaning="Permissible settling time of the mast into the positioning tolerance, from standstill",
+            valid="any stacker crane",
+            error="none: a limit of the file",
+            source="the file: no standard specifies it",
+        ),
+        needs=needs(("column", "log_decrement")),
         blame=_settling_blame,
         repair=_settling_key,
         what="From the standstill, the mast tip settles permanently into the fork window within the permitted wait.",
@@ -160,16 +150,6 @@ SETTLES: OneCheck = only(_asks_wait)(
         source="free vibration of the mast; tolerance and settling time of the file",
     )
 )
-
-
-def _window_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """The positioning tolerance of the fork to either side.
-
-    **Range** any stacker crane.
-    **Error** none: a limit of the file.
-    **Source** the file.
-    """
-    return given(spec.settling.window)
 
 
 def _asks_window(spec: Stacker, scene: StackerScene) -> bool:
@@ -185,7 +165,12 @@ LEANS: OneCheck = only(_asks_window)(
         scenes=frozenset({Brake}),
         loads=("rest_deflection",),
         sense=Sense.AT_MOST,
-        limit=_window_limit,
+        limit=key(
+            "settling.window",
+            meaning="The positioning tolerance of the fork to either side",
+            valid="any stacker crane",
+            error="none: a limit of the file",
+        ),
         needs=no_needs,
         blame=blames("settling", "window"),
         repair=no_repair,
@@ -214,7 +199,7 @@ BLOW: OneCheck = only(_asks_force)(
         scenes=HITS,
         loads=("collision_force",),
         sense=Sense.AT_MOST,
-        limit=_force_limit,
+        limit=_FORCE_LIMIT,
         needs=no_needs,
         blame=_speed_blame,
         repair=of_the_mechanism("speed"),
@@ -225,16 +210,6 @@ BLOW: OneCheck = only(_asks_force)(
         source="energy; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, table 11.1",
     )
 )
-
-
-def _contact_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible contact force between mast and obstacle, given in the file.
-
-    **Range** any stacker crane.
-    **Error** none: a limit of the file.
-    **Source** the file.
-    """
-    return given(spec.checks.contact_force)
 
 
 def _asks_contact(spec: Stacker, scene: StackerScene) -> bool:
@@ -250,7 +225,12 @@ STRUCK: OneCheck = only(_asks_contact)(
         scenes=HITS,
         loads=("contact_force",),
         sense=Sense.AT_MOST,
-        limit=_contact_limit,
+        limit=key(
+            "checks.contact_force",
+            meaning="Permissible contact force between mast and obstacle, given in the file",
+            valid="any stacker crane",
+            error="none: a limit of the file",
+        ),
         needs=no_needs,
         blame=_speed_blame,
         repair=of_the_mechanism("speed"),
@@ -260,16 +240,6 @@ STRUCK: OneCheck = only(_asks_contact)(
         source="contact of the file; `laws.obstacle`",
     )
 )
-
-
-def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible collision speed.
-
-    **Range** any stacker crane.
-    **Error** none: a limit of the file.
-    **Source** the file.
-    """
-    return given(spec.checks.collision_speed)
 
 
 def _asks_speed(spec: Stacker, scene: StackerScene) -> bool:
@@ -285,7 +255,12 @@ FAST: OneCheck = only(_asks_speed)(
         scenes=HITS,
         loads=("collision_speed",),
         sense=Sense.AT_MOST,
-        limit=_speed_limit,
+        limit=key(
+            "checks.collision_speed",
+            meaning="Permissible collision speed",
+            valid="any stacker crane",
+            error="none: a limit of the file",
+        ),
         needs=no_needs,
         blame=_speed_blame,
         repair=of_the_mechanism("speed"),

@@ -3,6 +3,7 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.judging import OneCheck, block, given
@@ -12,17 +13,6 @@ from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, HoistScene, St
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
 
-
-def _roller_limit(spec: Stacker, scene: HoistScene) -> Estimate:
-    """Permissible load of a guide roller.
-
-    **Range** any roller.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of the roller.
-    """
-    return given(spec.carriage.rollers.rating)
-
-
 ROLLERS: OneCheck = Check(
     code="CRN201",
     title="guide roller load",
@@ -31,7 +21,13 @@ ROLLERS: OneCheck = Check(
     scenes=frozenset({HoistScene}),
     loads=("roller_load",),
     sense=Sense.AT_MOST,
-    limit=_roller_limit,
+    limit=key(
+        "carriage.rollers.rating",
+        meaning="Permissible load of a guide roller",
+        valid="any roller",
+        error="none: a limit of the file",
+        source="the manufacturer of the roller",
+    ),
     needs=needs(("carriage", "rollers", "rating")),
     blame=blames("carriage", "rollers", "rating"),
     repair=at("carriage", "rollers", "distance"),
@@ -44,16 +40,6 @@ ROLLERS: OneCheck = Check(
 )
 
 
-def _jamming_limit(spec: Stacker, scene: HoistScene) -> Estimate:
-    """1: a guide resistance equal to the weight holds the carriage.
-
-    **Range** any guide.
-    **Error** none: an equilibrium; a file may require more than 1.
-    **Source** balance of the carriage.
-    """
-    return Estimate.exact(spec.checks.self_jamming)
-
-
 JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
     Check(
         code="CRN202",
@@ -64,7 +50,13 @@ JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
         scenes=frozenset({HoistScene}),
         loads=("jamming",),
         sense=Sense.AT_MOST,
-        limit=_jamming_limit,
+        limit=key(
+            "checks.self_jamming",
+            meaning="1: a guide resistance equal to the weight holds the carriage",
+            valid="any guide",
+            error="none: an equilibrium; a file may require more than 1",
+            source="balance of the carriage",
+        ),
         needs=no_needs,
         blame=blames("carriage", "rollers", "distance"),
         repair=at("carriage", "rollers", "distance"),
@@ -133,26 +125,6 @@ def _drive_repair(spec: Stacker, scene: Braked) -> KeyPath:
     return () if key[-1] == "motor" else key
 
 
-def _start_limit(spec: Stacker, scene: Braked) -> Estimate:
-    """Maximum starting time, 10 s by default.
-
-    **Range** any mechanism.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines: 8 to 10 s for travel.
-    """
-    return Estimate.exact(spec.checks.start_time)
-
-
-def _brake_limit(spec: Stacker, scene: Braked) -> Estimate:
-    """Maximum stopping time, 10 s by default.
-
-    **Range** any mechanism.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines: 8 to 10 s for travel.
-    """
-    return Estimate.exact(spec.checks.brake_time)
-
-
 START_TIME: OneCheck = Check(
     code="CRN204",
     title="mechanism start time",
@@ -162,7 +134,13 @@ START_TIME: OneCheck = Check(
     scenes=frozenset({Start}),
     loads=("start_time",),
     sense=Sense.AT_MOST,
-    limit=_start_limit,
+    limit=key(
+        "checks.start_time",
+        meaning="Maximum starting time, 10 s by default",
+        valid="any mechanism",
+        error="none: an engineering rule",
+        source="handbooks of lifting machines: 8 to 10 s for travel",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _drive_key(spec, scene),
     repair=_drive_repair,
@@ -181,7 +159,13 @@ BRAKE_TIME: OneCheck = Check(
     scenes=frozenset({Brake}),
     loads=("brake_time",),
     sense=Sense.AT_MOST,
-    limit=_brake_limit,
+    limit=key(
+        "checks.brake_time",
+        meaning="Maximum stopping time, 10 s by default",
+        valid="any mechanism",
+        error="none: an engineering rule",
+        source="handbooks of lifting machines: 8 to 10 s for travel",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _drive_key(spec, scene),
     repair=_drive_repair,
@@ -191,16 +175,6 @@ BRAKE_TIME: OneCheck = Check(
     formula="integral P dt = (m_1 + m_c + m_2) v,   t <= t_0",
     source="momentum; handbooks of lifting machines",
 )
-
-
-def _starts_limit(spec: Stacker, scene: Braked) -> Estimate:
-    """1: the permitted starts of motor and brake.
-
-    **Range** any mechanism.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of motor and brake.
-    """
-    return Estimate.exact(1.0)
 
 
 def _counts(spec: Stacker, scene: Braked | HoistScene) -> bool:
@@ -228,7 +202,13 @@ STARTS: OneCheck = only(_counts)(
         scenes=_STARTING,
         loads=("starts_ratio",),
         sense=Sense.AT_MOST,
-        limit=_starts_limit,
+        limit=fixed(
+            1.0,
+            meaning="1: the permitted starts of motor and brake",
+            valid="any mechanism",
+            error="none: a limit of the file",
+            source="the manufacturer of motor and brake",
+        ),
         needs=_starts_needs,
         blame=lambda spec, scene, loads: (_starts_block(spec, scene), "starts_per_hour"),
         repair=lambda spec, scene: (_starts_block(spec, scene), "starts_per_hour"),

@@ -1,8 +1,8 @@
 """Checks of the rail."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.crane.stacking.judging import OneCheck
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.rail.base import roll_of
@@ -15,16 +15,6 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
 
 ROLLS: frozenset[type[Scene]] = frozenset({RailScene})
-
-
-def _contact_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """0: the wheel stays on its rail.
-
-    **Range** any wheel.
-    **Error** none: a wheel transmits no tension.
-    **Source** equilibrium.
-    """
-    return Estimate.exact(0.0)
 
 
 def _rail_key(spec: Stacker, scene: StackerScene) -> KeyPath:
@@ -50,7 +40,13 @@ CONTACT: OneCheck = Check(
     scenes=ROLLS,
     loads=("rail_contact",),
     sense=Sense.AT_LEAST,
-    limit=_contact_limit,
+    limit=fixed(
+        0.0,
+        meaning="0: the wheel stays on its rail",
+        valid="any wheel",
+        error="none: a wheel transmits no tension",
+        source="equilibrium",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _rail_key(spec, scene),
     repair=at("travel", "speed"),
@@ -59,16 +55,6 @@ CONTACT: OneCheck = Check(
     formula="1 - (pi/2)^2 v^2/(g r) max(-u) >= 0,   1 - T (h/2) (2 pi v/lambda)^2/g >= 0",
     source="one vertical mode over a cosine step; `laws.rail`",
 )
-
-
-def _detuning_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Minimum separation from resonance, 0.2 by default.
-
-    **Range** uniform waves.
-    **Error** none: an engineering rule.
-    **Source** handbooks: separation of 20 to 30 % from a natural frequency.
-    """
-    return Estimate.exact(spec.checks.rail_detuning)
 
 
 RESONANCE: OneCheck = only(lambda spec, scene: isinstance(spec, RackStacker) and spec.rail.waviness is not None)(
@@ -80,7 +66,13 @@ RESONANCE: OneCheck = only(lambda spec, scene: isinstance(spec, RackStacker) and
         scenes=ROLLS,
         loads=("rail_detuning",),
         sense=Sense.AT_LEAST,
-        limit=_detuning_limit,
+        limit=key(
+            "checks.rail_detuning",
+            meaning="Minimum separation from resonance, 0.2 by default",
+            valid="uniform waves",
+            error="none: an engineering rule",
+            source="handbooks: separation of 20 to 30 % from a natural frequency",
+        ),
         needs=no_needs,
         blame=blames("rail", "waviness", "length"),
         repair=at("travel", "speed"),

@@ -1,9 +1,9 @@
 """Checks of the safety gear."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
-from ptmcalc.machines.crane.stacking.judging import OneCheck, given
+from ptmcalc.contract.limits import fixed, key
+from ptmcalc.machines.crane.stacking.judging import OneCheck
 from ptmcalc.machines.crane.stacking.scenes import (
     SafetyGearScene,
     StackerScene,
@@ -12,16 +12,6 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
 
 FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
-
-
-def _gear_stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Stroke of the safety gear.
-
-    **Range** any gear.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of the gear.
-    """
-    return given(spec.safety_gear.stroke if spec.safety_gear is not None else None)
 
 
 def _gear_key(spec: Stacker, scene: StackerScene) -> KeyPath:
@@ -38,7 +28,13 @@ GEAR_STROKE: OneCheck = Check(
     scenes=FALLS,
     loads=("safety_gear_distance",),
     sense=Sense.AT_MOST,
-    limit=_gear_stroke_limit,
+    limit=key(
+        "safety_gear.stroke",
+        meaning="Stroke of the safety gear",
+        valid="any gear",
+        error="none: a limit of the file",
+        source="the manufacturer of the gear",
+    ),
     needs=no_needs,
     blame=blames("safety_gear", "stroke"),
     repair=at("safety_gear", "stroke"),
@@ -51,16 +47,6 @@ GEAR_STROKE: OneCheck = Check(
 )
 
 
-def _holding_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """1: the gear force equals the weight.
-
-    **Range** any gear.
-    **Error** none: equilibrium.
-    **Source** equilibrium.
-    """
-    return Estimate.exact(1.0)
-
-
 HOLDS: OneCheck = Check(
     code="CRN291",
     title="safety gear holding reserve",
@@ -69,7 +55,13 @@ HOLDS: OneCheck = Check(
     scenes=FALLS,
     loads=("safety_gear_factor",),
     sense=Sense.AT_LEAST,
-    limit=_holding_limit,
+    limit=fixed(
+        1.0,
+        meaning="1: the gear force equals the weight",
+        valid="any gear",
+        error="none: equilibrium",
+        source="equilibrium",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _gear_key(spec, scene),
     repair=_gear_key,
@@ -78,16 +70,6 @@ HOLDS: OneCheck = Check(
     formula="F_c/(M g) >= 1",
     source="equilibrium",
 )
-
-
-def _deceleration_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible deceleration of the carriage.
-
-    **Range** any carriage; 9.81 m/s^2 is usual for a cab with a driver.
-    **Error** none: a limit of the file.
-    **Source** the file; EN 81-20: a mean of 0.2 to 1 g for progressive gears.
-    """
-    return given(spec.checks.catch_deceleration)
 
 
 DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration is not None)(
@@ -99,7 +81,13 @@ DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration
         scenes=FALLS,
         loads=("safety_gear_deceleration",),
         sense=Sense.AT_MOST,
-        limit=_deceleration_limit,
+        limit=key(
+            "checks.catch_deceleration",
+            meaning="Permissible deceleration of the carriage",
+            valid="any carriage; 9.81 m/s^2 is usual for a cab with a driver",
+            error="none: a limit of the file",
+            source="the file; EN 81-20: a mean of 0.2 to 1 g for progressive gears",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: _gear_key(spec, scene),
         repair=_gear_key,

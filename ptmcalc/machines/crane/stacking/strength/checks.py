@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, given
+from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import (
@@ -29,14 +29,13 @@ from ptmcalc.spec.scene import Scene
 Shares = Callable[[Stacker, StackerScene, stresses.Event], dict[str, float]]
 
 
-def _stability_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """1: the stabilising moment is at least the tipping moment; the file may require more.
-
-    **Range** a machine on its wheels.
-    **Error** none: an equilibrium at 1.
-    **Source** equilibrium of moments; the additional reserve differs between standards.
-    """
-    return Estimate.exact(spec.checks.stability)
+_STABILITY_LIMIT = key(
+    "checks.stability",
+    meaning="1: the stabilising moment is at least the tipping moment; the file may require more",
+    valid="a machine on its wheels",
+    error="none: an equilibrium at 1",
+    source="equilibrium of moments; the additional reserve differs between standards",
+)
 
 
 def _on_a_side(side: str, wanted: Callable[[Any, Any], bool]) -> Callable[[OneCheck], OneCheck]:
@@ -68,7 +67,7 @@ ALONG: OneCheck = _on_a_side("along", _travels)(
         scenes=frozenset({Start, Brake}),
         loads=("stability_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_stability_limit,
+        limit=_STABILITY_LIMIT,
         needs=no_needs,
         blame=blames("base", "wheel_base"),
         repair=at("base", "wheel_base"),
@@ -111,7 +110,7 @@ ACROSS: OneCheck = _on_a_side("across", _leans)(
         scenes=frozenset({Stand, ForkPush}),
         loads=("stability_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_stability_limit,
+        limit=_STABILITY_LIMIT,
         needs=_across_needs,
         blame=lambda spec, scene, loads: _across_key(spec, scene),
         repair=_across_key,
@@ -135,25 +134,15 @@ def _of_travel(spec: Stacker, scene: StackerScene) -> bool:
     return model.mechanism(spec, scene) != "rotation"
 
 
-def _column_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible mast stress, given in the file.
-
-    **Range** any combination.
-    **Error** none: a limit of the file.
-    **Source** material and rules of the file.
-    """
-    return given(spec.checks.column_stress)
-
-
 def _governs(part: str, shares: Shares) -> Callable[[Stacker, StackerScene, Loads], KeyPath]:
     """The key by which the largest share of a stress goes."""
 
-    def key(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath:
+    def governing(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath:
         happens = stresses.event(spec, scene, {name: one.value for name, one in loads.items()})
         parts = shares(spec, scene, happens if happens is not None else stresses.Event())
         return (part, max(parts, key=parts.__getitem__))
 
-    return key
+    return governing
 
 
 COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not None and _of_travel(spec, scene))(
@@ -165,7 +154,13 @@ COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not N
         scenes=EVENTS,
         loads=("column_stress",),
         sense=Sense.AT_MOST,
-        limit=_column_limit,
+        limit=key(
+            "checks.column_stress",
+            meaning="Permissible mast stress, given in the file",
+            valid="any combination",
+            error="none: a limit of the file",
+            source="material and rules of the file",
+        ),
         needs=needs(("checks", "column_stress")),
         blame=_governs("column", stresses.column_stresses),
         repair=no_repair,
@@ -178,16 +173,6 @@ COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not N
         source="bending of beams; tables 11.1 and 11.2 of the lecture notes, Kramatorsk 2007",
     )
 )
-
-
-def _bridge_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Permissible girder stress, given in the file.
-
-    **Range** any combination.
-    **Error** none: a limit of the file.
-    **Source** material and rules of the file.
-    """
-    return given(spec.checks.bridge_stress)
 
 
 def _has_girders(spec: Stacker, scene: StackerScene) -> bool:
@@ -205,7 +190,13 @@ BRIDGE: OneCheck = only(_has_girders)(
         scenes=UNDER_A_BRIDGE,
         loads=("bridge_stress",),
         sense=Sense.AT_MOST,
-        limit=_bridge_limit,
+        limit=key(
+            "checks.bridge_stress",
+            meaning="Permissible girder stress, given in the file",
+            valid="any combination",
+            error="none: a limit of the file",
+            source="material and rules of the file",
+        ),
         needs=needs(("checks", "bridge_stress")),
         blame=_governs("bridge", stresses.bridge_stresses),
         repair=no_repair,

@@ -2,21 +2,11 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, only
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.crane.travelling.judging import HITS, OneCheck, rating
 from ptmcalc.machines.crane.travelling.scenes import TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
-
-
-def _stroke_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Buffer stroke given in the file.
-
-    **Range** any buffer.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of the buffer.
-    """
-    return rating(spec.buffers.stroke if spec.buffers is not None else None)
-
 
 STROKE: OneCheck = Check(
     code="CRN170",
@@ -26,7 +16,13 @@ STROKE: OneCheck = Check(
     scenes=HITS,
     loads=("buffer_stroke",),
     sense=Sense.AT_MOST,
-    limit=_stroke_limit,
+    limit=key(
+        "buffers.stroke",
+        meaning="Buffer stroke given in the file",
+        valid="any buffer",
+        error="none: a limit of the file",
+        source="the manufacturer of the buffer",
+    ),
     needs=no_needs,
     blame=blames("buffers", "stroke"),
     repair=at("buffers", "stroke"),
@@ -38,16 +34,6 @@ STROKE: OneCheck = Check(
 )
 
 
-def _force_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Permissible force of a buffer, or of its end stop.
-
-    **Range** any buffer.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of the buffer, the calculation of the end stop.
-    """
-    return rating(spec.buffers.rating if spec.buffers is not None else None)
-
-
 FORCE: OneCheck = Check(
     code="CRN171",
     title="buffer force",
@@ -56,8 +42,14 @@ FORCE: OneCheck = Check(
     scenes=HITS,
     loads=("buffer_force",),
     sense=Sense.AT_MOST,
-    limit=_force_limit,
-    needs=lambda spec, scene: (("buffers", "rating"),),
+    limit=key(
+        "buffers.rating",
+        meaning="Permissible force of a buffer, or of its end stop",
+        valid="any buffer",
+        error="none: a limit of the file",
+        source="the manufacturer of the buffer, the calculation of the end stop",
+    ),
+    needs=needs(("buffers", "rating")),
     blame=blames("buffers", "rating"),
     repair=at("buffers", "rating"),
     what="The force of each buffer is at most its rating or the rating of the end stop.",

@@ -1,21 +1,8 @@
 """Check of the wheel load at steps and gaps of the rail."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.check import Check, Sense, at, no_needs
+from ptmcalc.contract.limits import fixed
 from ptmcalc.machines.crane.travelling.judging import STEPS, OneCheck
-from ptmcalc.machines.crane.travelling.scenes import TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
-
-
-def _contact_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """0: the wheel stays on its rail.
-
-    **Range** any wheel.
-    **Error** none: a wheel transmits no tension.
-    **Source** equilibrium.
-    """
-    return Estimate.exact(0.0)
-
 
 CONTACT: OneCheck = Check(
     code="CRN173",
@@ -25,7 +12,13 @@ CONTACT: OneCheck = Check(
     scenes=STEPS,
     loads=("rail_contact",),
     sense=Sense.AT_LEAST,
-    limit=_contact_limit,
+    limit=fixed(
+        0.0,
+        meaning="0: the wheel stays on its rail",
+        valid="any wheel",
+        error="none: a wheel transmits no tension",
+        source="equilibrium",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: ("rail", "step" if spec.rail.step else "gap"),
     repair=at("speed"),

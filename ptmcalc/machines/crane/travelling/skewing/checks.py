@@ -1,21 +1,9 @@
 """Check of the guide force of a skewing crane."""
 
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.check import Check, Sense, at, blames
-from ptmcalc.machines.crane.travelling.judging import OneCheck, rating
-from ptmcalc.machines.crane.travelling.scenes import Skew, TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
-
-
-def _guide_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Permissible force of a guide.
-
-    **Range** flanges and guide rollers.
-    **Error** none: a limit of the file.
-    **Source** the file.
-    """
-    return rating(spec.guide.rating if spec.guide is not None else None)
-
+from ptmcalc.contract.check import Check, Sense, at, blames, needs
+from ptmcalc.contract.limits import key
+from ptmcalc.machines.crane.travelling.judging import OneCheck
+from ptmcalc.machines.crane.travelling.scenes import Skew
 
 GUIDE: OneCheck = Check(
     code="CRN174",
@@ -25,8 +13,13 @@ GUIDE: OneCheck = Check(
     scenes=frozenset({Skew}),
     loads=("skew_force",),
     sense=Sense.AT_MOST,
-    limit=_guide_limit,
-    needs=lambda spec, scene: (("guide", "rating"),),
+    limit=key(
+        "guide.rating",
+        meaning="Permissible force of a guide",
+        valid="flanges and guide rollers",
+        error="none: a limit of the file",
+    ),
+    needs=needs(("guide", "rating")),
     blame=blames("guide", "rating"),
     repair=at("guide", "rating"),
     what="The force of the rail on the foremost guide is at most the rating of flange, roller and rail.",

@@ -5,7 +5,8 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import braking_number_at
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.crane.travelling.judging import (
     RUNNING,
     STARTS,
@@ -27,16 +28,6 @@ def _torque(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
     return torque_key(spec)
 
 
-def _reserve_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Minimum ratio of the lowest starting torque up to full speed to the steady travel torque, 1.1 by default.
-
-    **Range** any drive that starts against wind and slope.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.motor_reserve)
-
-
 STALL: OneCheck = Check(
     code="CRN160",
     title="travel starting torque reserve",
@@ -46,7 +37,14 @@ STALL: OneCheck = Check(
     scenes=frozenset({Run, Start}),
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
-    limit=_reserve_limit,
+    limit=key(
+        "checks.motor_reserve",
+        meaning="Minimum ratio of the lowest starting torque up to full speed to the steady travel torque, 1.1 by"
+        " default",
+        valid="any drive that starts against wind and slope",
+        error="none: an engineering rule",
+        source="handbooks of lifting machines",
+    ),
     needs=no_needs,
     blame=_torque,
     repair=torque_repair,
@@ -59,16 +57,6 @@ STALL: OneCheck = Check(
 )
 
 
-def _wind_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """1: the motors hold the crane against the wind.
-
-    **Range** cranes in the wind.
-    **Error** none: an equilibrium.
-    **Source** EN 13001-2, ISO 4302: maximum in-service wind.
-    """
-    return Estimate.exact(1.0)
-
-
 AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
     Check(
         code="CRN161",
@@ -79,7 +67,13 @@ AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
         scenes=RUNNING,
         loads=("wind_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_wind_limit,
+        limit=fixed(
+            1.0,
+            meaning="1: the motors hold the crane against the wind",
+            valid="cranes in the wind",
+            error="none: an equilibrium",
+            source="EN 13001-2, ISO 4302: maximum in-service wind",
+        ),
         needs=no_needs,
         blame=_torque,
         repair=torque_repair,
@@ -91,16 +85,6 @@ AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
         source="balance of forces; winds of EN 13001-2 and ISO 4302",
     )
 )
-
-
-def _overhauling_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """1: the braking torque of the motors is at least the overhauling torque of wind and slope.
-
-    **Range** motors with a curve in the file.
-    **Error** none: an equilibrium.
-    **Source** balance of torques on the motor shaft.
-    """
-    return Estimate.exact(1.0)
 
 
 def _driven(spec: Travelling, scene: TravelScene) -> bool:
@@ -123,7 +107,13 @@ OVERHAULED: OneCheck = only(_driven)(
         scenes=RUNNING | STARTS,
         loads=("overhauling_reserve",),
         sense=Sense.AT_LEAST,
-        limit=_overhauling_limit,
+        limit=fixed(
+            1.0,
+            meaning="1: the braking torque of the motors is at least the overhauling torque of wind and slope",
+            valid="motors with a curve in the file",
+            error="none: an equilibrium",
+            source="balance of torques on the motor shaft",
+        ),
         needs=no_needs,
         blame=blames("drive", "motor", "curve"),
         repair=_braking_repair,
@@ -140,16 +130,6 @@ OVERHAULED: OneCheck = only(_driven)(
 
 def _on_duty(spec: Travelling, scene: TravelScene) -> bool:
     return _loaded(spec, scene) and spec.duty is not None
-
-
-def _heat_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """The full rating at the duty factor of the file.
-
-    **Range** ratings at another duty factor are converted with the cooling of the motor at standstill.
-    **Error** none: a definition.
-    **Source** IEC 60034-1; `laws.duty.permissible_torque`.
-    """
-    return Estimate.exact(1.0)
 
 
 def _rating(spec: Travelling) -> KeyPath:
@@ -169,7 +149,13 @@ HEAT: OneCheck = only(_on_duty)(
         scenes=RUNNING,
         loads=("heating_utilisation",),
         sense=Sense.AT_MOST,
-        limit=_heat_limit,
+        limit=fixed(
+            1.0,
+            meaning="The full rating at the duty factor of the file",
+            valid="ratings at another duty factor are converted with the cooling of the motor at standstill",
+            error="none: a definition",
+            source="IEC 60034-1; `laws.duty.permissible_torque`",
+        ),
         needs=_heat_needs,
         blame=lambda spec, scene, loads: _rating(spec),
         repair=lambda spec, scene: _rating(spec),
@@ -180,17 +166,6 @@ HEAT: OneCheck = only(_on_duty)(
         source="IEC 60034-1",
     )
 )
-
-
-def _starts_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Permitted starts per hour of the manufacturer.
-
-    **Range** any motor.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of the motor.
-    """
-    allowed = spec.drive.motor.starts_per_hour
-    return Estimate.exact(math.inf if allowed is None else allowed)
 
 
 def _counts_starts(spec: Travelling, scene: TravelScene) -> bool:
@@ -206,8 +181,14 @@ STARTS_PER_HOUR: OneCheck = only(_counts_starts)(
         scenes=RUNNING,
         loads=("starts_per_hour",),
         sense=Sense.AT_MOST,
-        limit=_starts_limit,
-        needs=lambda spec, scene: (("drive", "motor", "starts_per_hour"),),
+        limit=key(
+            "drive.motor.starts_per_hour",
+            meaning="Permitted starts per hour of the manufacturer",
+            valid="any motor",
+            error="none: a limit of the file",
+            source="the manufacturer of the motor",
+        ),
+        needs=needs(("drive", "motor", "starts_per_hour")),
         blame=blames("duty", "starts_per_hour"),
         repair=at("duty", "starts_per_hour"),
         what="The number of motor starts per hour is at most the rating of the manufacturer.",
@@ -243,7 +224,7 @@ CLASS: OneCheck = only(_classed)(
         loads=("crane_group",),
         sense=Sense.AT_MOST,
         limit=_group_limit,
-        needs=lambda spec, scene: (("class", "crane"),),
+        needs=needs(("class", "crane")),
         blame=blames("class", "crane"),
         repair=no_repair,
         what="The crane group required by cycles and load spectrum (ISO 4301-1) is at most the declared group.",

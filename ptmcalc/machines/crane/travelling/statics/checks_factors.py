@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import Check, Sense, at, blames, no_needs, no_repair, only
-from ptmcalc.machines.crane.travelling.judging import HITS, RUNNING, STEPS, OneCheck, rating
+from ptmcalc.contract.check import Check, Sense, at, blames, needs, no_needs, no_repair, only
+from ptmcalc.contract.limits import key
+from ptmcalc.machines.crane.travelling.judging import HITS, RUNNING, STEPS, OneCheck
 from ptmcalc.machines.crane.travelling.scenes import TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.spec.scene import Scene
@@ -13,19 +13,6 @@ from ptmcalc.spec.scene import Scene
 
 def _declared(name: str) -> Callable[[Travelling, TravelScene], bool]:
     return lambda spec, scene: getattr(spec.declared, name) is not None
-
-
-def _factor_limit(name: str) -> Callable[[Travelling, TravelScene], Estimate]:
-    def limit(spec: Travelling, scene: TravelScene) -> Estimate:
-        return rating(getattr(spec.declared, name))
-
-    limit.__doc__ = f"""The {name} with which the structure has been designed.
-
-    **Range** any crane.
-    **Error** none: a number of the file.
-    **Source** the file.
-    """
-    return limit
 
 
 def _factor(
@@ -49,7 +36,12 @@ def _factor(
             scenes=scenes,
             loads=(name,),
             sense=sense,
-            limit=_factor_limit(name),
+            limit=key(
+                f"declared.{name}",
+                meaning=f"The {name} with which the structure has been designed",
+                valid="any crane",
+                error="none: a number of the file",
+            ),
             needs=needs,
             blame=blames("declared", name),
             repair=repair,
@@ -61,9 +53,7 @@ def _factor(
     )
 
 
-def _hoisting_needs(spec: Travelling, scene: TravelScene) -> tuple[KeyPath, ...]:
-    return (("class", "hoisting"), ("suspension", "hoist_speed"))
-
+_HOISTING = needs(("class", "hoisting"), ("suspension", "hoist_speed"))
 
 FACTORS: tuple[OneCheck, ...] = (
     _factor(
@@ -78,7 +68,7 @@ FACTORS: tuple[OneCheck, ...] = (
         "phi2, the factor of lifting a load off the ground, is at most the declared value. It depends on hoisting"
         " class, drive class and hoisting speed.",
         "phi_2 = phi_2,min + beta_2 v_h",
-        needs=_hoisting_needs,
+        needs=_HOISTING,
     ),
     _factor(
         "CRN182",
@@ -108,7 +98,7 @@ FACTORS: tuple[OneCheck, ...] = (
         "phi6",
         "phi6, the factor on the load of the dynamic test, is at most the declared value.",
         "phi_6 = (1 + phi_2)/2",
-        needs=_hoisting_needs,
+        needs=_HOISTING,
     ),
     _factor(
         "CRN186",

@@ -1,9 +1,7 @@
 """Checks of wheel loads and stability."""
 
-import math
-
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.crane.travelling.judging import (
     MOVES,
     RUNNING,
@@ -11,21 +9,7 @@ from ptmcalc.machines.crane.travelling.judging import (
 )
 from ptmcalc.machines.crane.travelling.scenes import (
     Storm,
-    TravelScene,
 )
-from ptmcalc.machines.crane.travelling.spec import Travelling
-
-
-def _wheel_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Rated wheel load.
-
-    **Range** any wheel and rail.
-    **Error** none: a limit of the file.
-    **Source** the manufacturer of wheel or rail.
-    """
-    rating = spec.wheels.rating
-    return Estimate.exact(math.inf if rating is None else rating)
-
 
 WHEEL: OneCheck = Check(
     code="CRN157",
@@ -35,8 +19,14 @@ WHEEL: OneCheck = Check(
     scenes=MOVES | RUNNING,
     loads=("wheel_load_max",),
     sense=Sense.AT_MOST,
-    limit=_wheel_limit,
-    needs=lambda spec, scene: (("wheels", "rating"),),
+    limit=key(
+        "wheels.rating",
+        meaning="Rated wheel load",
+        valid="any wheel and rail",
+        error="none: a limit of the file",
+        source="the manufacturer of wheel or rail",
+    ),
+    needs=needs(("wheels", "rating")),
     blame=blames("wheels", "rating"),
     repair=at("wheels", "rating"),
     what="The load of every wheel is at most its rating. The trolley is in its worst position, and the crane starts or"
@@ -47,16 +37,6 @@ WHEEL: OneCheck = Check(
 )
 
 
-def _lift_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """0: the wheel stays on its rail.
-
-    **Range** any crane.
-    **Error** none: a wheel transmits no tension.
-    **Source** equilibrium.
-    """
-    return Estimate.exact(0.0)
-
-
 LIFTS: OneCheck = Check(
     code="CRN158",
     title="minimum wheel load",
@@ -65,9 +45,15 @@ LIFTS: OneCheck = Check(
     scenes=MOVES | RUNNING,
     loads=("wheel_load_min",),
     sense=Sense.AT_LEAST,
-    limit=_lift_limit,
+    limit=fixed(
+        0.0,
+        meaning="0: the wheel stays on its rail",
+        valid="any crane",
+        error="none: a wheel transmits no tension",
+        source="equilibrium",
+    ),
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("wheels", "base"),
+    blame=blames("wheels", "base"),
     repair=at("wheels", "base"),
     what="The load of every wheel is at least zero, so that every wheel stays on the rail. The trolley is in its worst"
     " position, and the crane starts or stops.",
@@ -75,16 +61,6 @@ LIFTS: OneCheck = Check(
     formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B >= 0",
     source="equilibrium of the crane",
 )
-
-
-def _stability_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """1: the stabilising moment is at least the tipping moment, both with partial factors.
-
-    **Range** any crane.
-    **Error** none: an equilibrium; the factors are those of the edition.
-    **Source** EN 13001-2, FEM 1.001.
-    """
-    return Estimate.exact(spec.checks.stability)
 
 
 TIPS: OneCheck = Check(
@@ -96,9 +72,15 @@ TIPS: OneCheck = Check(
     scenes=MOVES | RUNNING | {Storm},
     loads=("stability_reserve",),
     sense=Sense.AT_LEAST,
-    limit=_stability_limit,
+    limit=key(
+        "checks.stability",
+        meaning="1: the stabilising moment is at least the tipping moment, both with partial factors",
+        valid="any crane",
+        error="none: an equilibrium; the factors are those of the edition",
+        source="EN 13001-2, FEM 1.001",
+    ),
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("wheels", "base"),
+    blame=blames("wheels", "base"),
     repair=at("wheels", "base"),
     what="About each tipping edge of the wheels, the stabilising moment is at least the required multiple of the"
     " tipping moment. The partial factors of the edition (`class.stability`) apply: they increase loads, drive forces"

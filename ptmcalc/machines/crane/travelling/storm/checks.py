@@ -1,21 +1,11 @@
 """Check of the holding force in a storm."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, no_needs
+from ptmcalc.contract.limits import key
 from ptmcalc.machines.crane.travelling.judging import OneCheck
 from ptmcalc.machines.crane.travelling.scenes import Storm, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
-
-
-def _storm_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Minimum reserve against the out-of-service wind, 1.1 by default.
-
-    **Range** outdoor cranes.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines; instead of it the partial factors of the standards, if they apply.
-    """
-    return Estimate.exact(spec.checks.wind_reserve)
 
 
 def _storm_key(spec: Travelling, scene: TravelScene) -> KeyPath:
@@ -31,7 +21,13 @@ STORM: OneCheck = Check(
     scenes=frozenset({Storm}),
     loads=("storm_reserve",),
     sense=Sense.AT_LEAST,
-    limit=_storm_limit,
+    limit=key(
+        "checks.wind_reserve",
+        meaning="Minimum reserve against the out-of-service wind, 1.1 by default",
+        valid="outdoor cranes",
+        error="none: an engineering rule",
+        source="handbooks of lifting machines; instead of it the partial factors of the standards, if they apply",
+    ),
     needs=no_needs,
     blame=lambda spec, scene, loads: _storm_key(spec, scene),
     repair=lambda spec, scene: _storm_key(spec, scene) if spec.parking is not None else (),

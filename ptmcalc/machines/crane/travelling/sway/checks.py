@@ -1,10 +1,8 @@
 """Checks of starts and stops: times, distance, sway, adhesion, ramp torque."""
 
-import math
-
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, no_repair, only
+from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.judging import (
     MOVES,
@@ -40,16 +38,6 @@ def _rate_blame(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
     return rate_key(spec, _moving(scene))
 
 
-def _start_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Maximum starting time, 15 s by default.
-
-    **Range** any crane.
-    **Error** none: an engineering rule; 5 to 10 s is usual.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.start_time)
-
-
 SLOW: OneCheck = Check(
     code="CRN150",
     title="travel start time",
@@ -59,7 +47,13 @@ SLOW: OneCheck = Check(
     scenes=STARTS,
     loads=("start_time",),
     sense=Sense.AT_MOST,
-    limit=_start_limit,
+    limit=key(
+        "checks.start_time",
+        meaning="Maximum starting time, 15 s by default",
+        valid="any crane",
+        error="none: an engineering rule; 5 to 10 s is usual",
+        source="handbooks of lifting machines",
+    ),
     needs=no_needs,
     blame=_rate_blame,
     repair=_rate_repair,
@@ -71,16 +65,6 @@ SLOW: OneCheck = Check(
 )
 
 
-def _stop_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Maximum stopping time, 15 s by default.
-
-    **Range** any crane.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.brake_time)
-
-
 LONG_STOP: OneCheck = Check(
     code="CRN151",
     title="travel stop time",
@@ -90,7 +74,13 @@ LONG_STOP: OneCheck = Check(
     scenes=frozenset({Brake}),
     loads=("brake_time",),
     sense=Sense.AT_MOST,
-    limit=_stop_limit,
+    limit=key(
+        "checks.brake_time",
+        meaning="Maximum stopping time, 15 s by default",
+        valid="any crane",
+        error="none: an engineering rule",
+        source="handbooks of lifting machines",
+    ),
     needs=no_needs,
     blame=_rate_blame,
     repair=_rate_repair,
@@ -102,17 +92,6 @@ LONG_STOP: OneCheck = Check(
 )
 
 
-def _distance_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Permissible stopping distance, given in the file.
-
-    **Range** any crane.
-    **Error** none: a limit of the file.
-    **Source** the file.
-    """
-    asked = spec.checks.brake_distance
-    return Estimate.exact(math.inf if asked is None else asked)
-
-
 LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not None)(
     Check(
         code="CRN152",
@@ -122,7 +101,12 @@ LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not 
         scenes=frozenset({Brake}),
         loads=("brake_distance",),
         sense=Sense.AT_MOST,
-        limit=_distance_limit,
+        limit=key(
+            "checks.brake_distance",
+            meaning="Permissible stopping distance, given in the file",
+            valid="any crane",
+            error="none: a limit of the file",
+        ),
         needs=no_needs,
         blame=_rate_blame,
         repair=_rate_repair,
@@ -134,16 +118,6 @@ LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not 
 )
 
 
-def _sway_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Maximum sway angle of the load, 10 deg by default.
-
-    **Range** any crane.
-    **Error** none: an engineering rule; 3 to 6 deg if loads are guided by hand.
-    **Source** the file, otherwise usual practice.
-    """
-    return Estimate.exact(spec.checks.sway_angle)
-
-
 SWAY: OneCheck = only(hangs)(
     Check(
         code="CRN153",
@@ -153,7 +127,13 @@ SWAY: OneCheck = only(hangs)(
         scenes=MOVES,
         loads=("sway_angle_max",),
         sense=Sense.AT_MOST,
-        limit=_sway_limit,
+        limit=key(
+            "checks.sway_angle",
+            meaning="Maximum sway angle of the load, 10 deg by default",
+            valid="any crane",
+            error="none: an engineering rule; 3 to 6 deg if loads are guided by hand",
+            source="the file, otherwise usual practice",
+        ),
         needs=no_needs,
         blame=_rate_blame,
         repair=_rate_repair,
@@ -165,17 +145,6 @@ SWAY: OneCheck = only(hangs)(
 )
 
 
-def _residual_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Permissible residual sway angle, given in the file.
-
-    **Range** any crane.
-    **Error** none: a limit of the file.
-    **Source** the file.
-    """
-    asked = spec.checks.residual_sway
-    return Estimate.exact(math.inf if asked is None else asked)
-
-
 RESIDUAL: OneCheck = only(lambda spec, scene: hangs(spec, scene) and spec.checks.residual_sway is not None)(
     Check(
         code="CRN154",
@@ -185,7 +154,12 @@ RESIDUAL: OneCheck = only(lambda spec, scene: hangs(spec, scene) and spec.checks
         scenes=MOVES,
         loads=("sway_residual",),
         sense=Sense.AT_MOST,
-        limit=_residual_limit,
+        limit=key(
+            "checks.residual_sway",
+            meaning="Permissible residual sway angle, given in the file",
+            valid="any crane",
+            error="none: a limit of the file",
+        ),
         needs=no_needs,
         blame=_rate_blame,
         repair=no_repair,
@@ -196,16 +170,6 @@ RESIDUAL: OneCheck = only(lambda spec, scene: hangs(spec, scene) and spec.checks
         source="pendulum under a moved pivot",
     )
 )
-
-
-def _skid_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Minimum ratio of the adhesion to the required force of a driven wheel, 1.2 by default.
-
-    **Range** steel wheels on rails.
-    **Error** none: an engineering rule.
-    **Source** handbooks of lifting machines.
-    """
-    return Estimate.exact(spec.checks.skid_reserve)
 
 
 def _skid_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
@@ -222,7 +186,13 @@ SKID: OneCheck = Check(
     scenes=MOVES,
     loads=("skid_reserve_min",),
     sense=Sense.AT_LEAST,
-    limit=_skid_limit,
+    limit=key(
+        "checks.skid_reserve",
+        meaning="Minimum ratio of the adhesion to the required force of a driven wheel, 1.2 by default",
+        valid="steel wheels on rails",
+        error="none: an engineering rule",
+        source="handbooks of lifting machines",
+    ),
     needs=no_needs,
     blame=_rate_blame,
     repair=_skid_repair,
@@ -236,16 +206,6 @@ SKID: OneCheck = Check(
 )
 
 
-def _ramp_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """The full torque of the motors.
-
-    **Range** drives on a speed ramp.
-    **Error** none: a definition.
-    **Source** the mean starting torque of the file.
-    """
-    return Estimate.exact(1.0)
-
-
 RAMP: OneCheck = only(lambda spec, scene: model.commanded(spec, _moving(scene)) is not None)(
     Check(
         code="CRN156",
@@ -255,7 +215,13 @@ RAMP: OneCheck = only(lambda spec, scene: model.commanded(spec, _moving(scene)) 
         scenes=MOVES,
         loads=("drive_utilisation",),
         sense=Sense.AT_MOST,
-        limit=_ramp_limit,
+        limit=fixed(
+            1.0,
+            meaning="The full torque of the motors",
+            valid="drives on a speed ramp",
+            error="none: a definition",
+            source="the mean starting torque of the file",
+        ),
         needs=no_needs,
         blame=lambda spec, scene, loads: torque_key(spec),
         repair=torque_repair,
