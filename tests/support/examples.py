@@ -67,6 +67,8 @@ def _of_scene(kind: AnyKind, scene: Mapping[str, Any], lines: Iterable[str]) -> 
         if line is not None:
             yield one["code"], int(verdict != "pass"), "check", line
     for effect in scene["effects"]:
+        if effect.get("absent"):
+            continue  # no table lists it
         known = effect["criterion"] is not None and effect["criterion"]["value"] is not None
         number = Criterion(**effect["criterion"]) if known else None
         about = f", {words.compared(number)}: {number.meaning}" if number else ""
