@@ -81,7 +81,7 @@ def _letters(kind: AnyKind) -> dict[str, set[str]]:
     """By page, the letters of all its formulas."""
     pages = {check.code: of_check(check) for check in kind.checks}
     pages |= {effect.name: of_effect(effect) for effect in kind.effects}
-    pages |= {solver.name: of_solver(solver) for solver in (*kind.solvers, *kind.witnesses)}
+    pages |= {solver.name: of_solver(solver) for solver in (*kind.solvers, *kind.reference_methods)}
     return {name: set(formula.letters(text)) for name, text in pages.items()}
 
 

@@ -18,7 +18,7 @@ from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import with_derived
 from ptmcalc.numerics.train.parts import Train
-from ptmcalc.witness import lumped, lumped_cost, two_runs
+from ptmcalc.reference import lumped, lumped_cost, two_runs
 
 
 def caught(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
@@ -75,7 +75,7 @@ def yields(spec: Stacker, scene: ForkPush) -> Criterion | None:
     return None
 
 
-_SOURCE = "Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I; derived in ptmcalc.witness"
+_SOURCE = "Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I; derived in ptmcalc.reference"
 CAUGHT: Solver[Stacker, ForkCaught] = Solver(
     name="caught_runge_kutta",
     title="snagged fork, Runge-Kutta (reference)",
@@ -103,4 +103,4 @@ PUSHED: Solver[Stacker, ForkPush] = Solver(
     always=frozenset({PUSHING, YIELDING}),
     levels=2,
 )
-WITNESSES = (CAUGHT, PUSHED)
+REFERENCE_METHODS = (CAUGHT, PUSHED)

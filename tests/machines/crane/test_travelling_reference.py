@@ -12,9 +12,9 @@ from support.travelling import BRIDGE, crane_of, scene_report
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.machines.crane.travelling.model import State
+from ptmcalc.machines.crane.travelling.reference import SWAY_CARTESIAN
 from ptmcalc.machines.crane.travelling.sway.simulated import Simulated
 from ptmcalc.machines.crane.travelling.sway.sway_simulated import SWAY_SIMULATED
-from ptmcalc.machines.crane.travelling.witness import SWAY_CARTESIAN
 
 CAGE = {"power": "5 kW", "speed": "1400 rpm", "synchronous_speed": "1500 rpm", "overload": 2.4}
 CURVES: dict[str, dict[str, Any]] = {

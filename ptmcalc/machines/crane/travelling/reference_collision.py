@@ -15,7 +15,7 @@ from ptmcalc.machines.crane.travelling.buffers import yawing
 from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Collision
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.witness import lumped, two_runs
+from ptmcalc.reference import lumped, two_runs
 
 SOURCE = "Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I"
 _STROKE_LOOKS = 400

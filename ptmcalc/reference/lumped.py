@@ -1,4 +1,4 @@
-"""A train integrated by eighth-order Runge-Kutta steps (scipy's DOP853) from event to event: a witness.
+"""A train integrated by eighth-order Runge-Kutta steps (scipy's DOP853) from event to event: a reference.
 
 An event is bracketed on a grid inside every step by the step's own polynomial, and met again by a step of its own.
 What differs between a run and one of a hundredth of its tolerance is the larger one's error.
@@ -12,12 +12,12 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.train.parts import Train
-from ptmcalc.witness.friction import Friction, Rest
-from ptmcalc.witness.law_pieces import piece_of
-from ptmcalc.witness.lumped_history import Happened, History, summit, turns
-from ptmcalc.witness.mechanism import Equations, Mechanism
-from ptmcalc.witness.mechanism_coordinates import OPEN, FloatArray, State
-from ptmcalc.witness.mechanism_inputs import Inputs
+from ptmcalc.reference.friction import Friction, Rest
+from ptmcalc.reference.law_pieces import piece_of
+from ptmcalc.reference.lumped_history import Happened, History, summit, turns
+from ptmcalc.reference.mechanism import Equations, Mechanism
+from ptmcalc.reference.mechanism_coordinates import OPEN, FloatArray, State
+from ptmcalc.reference.mechanism_inputs import Inputs
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
 _SAMPLES = np.linspace(0.0, 1.0, 9)

@@ -20,6 +20,7 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.loads import MOVING
 from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.reference_events import OF_EVENTS
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway import cartesian
@@ -29,8 +30,7 @@ from ptmcalc.machines.crane.travelling.sway.effects import CURVE, IN_PLANE, LARG
 from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of, stalls
 from ptmcalc.machines.crane.travelling.sway.reading import loads_of
 from ptmcalc.machines.crane.travelling.sway.simulated import turns
-from ptmcalc.machines.crane.travelling.witness_events import OF_EVENTS
-from ptmcalc.witness import lumped, two_runs
+from ptmcalc.reference import lumped, two_runs
 
 _AFTER = 1.2
 """Periods of the swing that are looked at after the start or stop."""
@@ -223,4 +223,4 @@ SWAY_CARTESIAN: Solver[Travelling, Moving] = Solver(
     levels=2,
 )
 
-WITNESSES: tuple[Solver[Travelling, Any], ...] = (SWAY_CARTESIAN, *OF_EVENTS)
+REFERENCE_METHODS: tuple[Solver[Travelling, Any], ...] = (SWAY_CARTESIAN, *OF_EVENTS)

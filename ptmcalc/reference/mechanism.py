@@ -1,6 +1,6 @@
 """A train of inertias in one state of contact and friction: its equations, and what ends the state.
 
-Shared with the solvers it is a witness of: the list of parts (`numerics.train.parts`), and the value of a smooth
+Shared with the solvers it is a reference of: the list of parts (`numerics.train.parts`), and the value of a smooth
 torque curve. Equations, contact, friction at rest, events and extremes are its own.
 
 Every force is a row over w = (q, v, u): travels and speeds of the groups that gears tie together, and the inputs u:
@@ -26,9 +26,9 @@ from ptmcalc.numerics.train.parts import (
     Train,
 )
 from ptmcalc.numerics.train.signals import Signal
-from ptmcalc.witness.law_pieces import ends, line
-from ptmcalc.witness.mechanism_coordinates import OPEN, Branch, Coordinates, FloatArray, State
-from ptmcalc.witness.mechanism_inputs import Inputs
+from ptmcalc.reference.law_pieces import ends, line
+from ptmcalc.reference.mechanism_coordinates import OPEN, Branch, Coordinates, FloatArray, State
+from ptmcalc.reference.mechanism_inputs import Inputs
 
 
 @dataclass(frozen=True, slots=True)

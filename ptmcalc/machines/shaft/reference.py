@@ -21,10 +21,18 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.shaft.cases import machine_for, machine_in
 from ptmcalc.machines.shaft.mechanism import FloatArray
 from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.reference_cycle import (
+    FIRST,
+    SECOND,
+    Law,
+    closed_cycle,
+    simulated_machine,
+    steady,
+    stretches,
+)
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
 from ptmcalc.machines.shaft.speed_changes.cases import is_braked, target_speed
-from ptmcalc.machines.shaft.witness_cycle import FIRST, SECOND, Law, closed_cycle, simulated_machine, steady, stretches
-from ptmcalc.witness import lumped_history, two_runs
+from ptmcalc.reference import lumped_history, two_runs
 
 _ANGLES, _NARROWINGS = 32, 2
 """Starting angles of a batch of stops, and further batches around the worst one [1]. A numerical choice: fewer angles
@@ -335,7 +343,7 @@ _CYCLE = (
     "speed_max", "speed_min", "speed_mean", "irregularity", "torque_motor_rms", "torque_motor_max", "work_useful",
     "work_loss", "work_drive", "cycle_efficiency", "loss_factor", "flywheel_inertia",
 )  # fmt: skip
-WITNESSES: tuple[Solver[Shaft, Any], ...] = (
+REFERENCE_METHODS: tuple[Solver[Shaft, Any], ...] = (
     _solver("runge_kutta_up", RunUp, run_up, dict.fromkeys(("run_up_time", "run_up_angle"))),
     _solver("runge_kutta_cycle", Steady, steady, dict.fromkeys(_CYCLE)),
     _solver("runge_kutta_out", RunOut, run_out, dict.fromkeys(("run_out_time", "run_out_angle"))),

@@ -22,8 +22,8 @@ from ptmcalc.machines.conveyor.model import FloatArray, Strand, drive_force, dri
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
 from ptmcalc.machines.conveyor.waves.network import CELLS
-from ptmcalc.witness import belt
-from ptmcalc.witness.belt import Length, Motion, Plan, Roller
+from ptmcalc.reference import belt
+from ptmcalc.reference.belt import Length, Motion, Plan, Roller
 
 _ELEMENTS = (160, 320, 640)
 """Elements of the finest of three meshes by level; a numerical choice. Twice the number takes four times as long and
@@ -53,7 +53,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     **Error** three times the difference to a mesh with half as many elements, or half of the difference of the two
     coarser meshes (two may agree by chance): fronts converge at least with the first order, so that the remaining error
     is at most that difference.
-    **Source** lumped elements: Nordell and Ciozda; Moreau's time stepping of friction; derived in `witness.belt`.
+    **Source** lumped elements: Nordell and Ciozda; Moreau's time stepping of friction; derived in `reference.belt`.
     """
     case = moving(spec, scene)
     found, steps, end = [], 0, 0.0
@@ -320,10 +320,10 @@ ELEMENTS: Solver[Conveyor, ConveyorScene] = Solver(
     gives=OF_NETWORK.union(PER_DRIVE, DRIVE),
     run=run,
     cost=cost,
-    source="lumped elements with Moreau's time stepping; derived in ptmcalc.witness.belt",
+    source="lumped elements with Moreau's time stepping; derived in ptmcalc.reference.belt",
     valid=valid,
     always=frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers"}),
     levels=len(_ELEMENTS),
 )
 
-WITNESSES = (CELLS, ELEMENTS)
+REFERENCE_METHODS = (CELLS, ELEMENTS)

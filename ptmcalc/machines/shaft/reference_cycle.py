@@ -18,7 +18,7 @@ from ptmcalc.machines.shaft.mechanism import FloatArray
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
 from ptmcalc.machines.shaft.speed_changes.cases import is_braked
-from ptmcalc.witness import lumped_history, two_runs
+from ptmcalc.reference import lumped_history, two_runs
 
 FIRST, SECOND = 1e-7, 1e-9
 """Relative tolerance of the coarse and of the fine run [1]; three times their difference is the error bar. A numerical

@@ -33,8 +33,8 @@ from ptmcalc.machines.hoist.motion.train import (
 )
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.parts import LINEAR, Body, Train
-from ptmcalc.witness import lumped, lumped_cost, two_runs
-from ptmcalc.witness.lumped_history import History
+from ptmcalc.reference import lumped, lumped_cost, two_runs
+from ptmcalc.reference.lumped_history import History
 
 _LONGER = 4
 """Doublings of the window in which a brake may bring the drive to rest; a numerical choice. The last window is 16 times
@@ -271,7 +271,7 @@ DORMAND_PRINCE: Solver[Hoist, Moving] = Solver(
     gives=MOVING,
     run=run,
     cost=cost,
-    source="Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I; derived in ptmcalc.witness",
+    source="Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I; derived in ptmcalc.reference",
     valid=valid,
     always=ALWAYS,
     levels=2,
@@ -289,4 +289,4 @@ ROPE_CHAIN: Solver[Hoist, Moving] = replace(
     levels=len(_SECTIONS),
     method="chain of masses",
 )
-WITNESSES = (DORMAND_PRINCE, ROPE_CHAIN)
+REFERENCE_METHODS = (DORMAND_PRINCE, ROPE_CHAIN)

@@ -21,10 +21,10 @@ from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.rail.effects import RAIL
+from ptmcalc.machines.crane.travelling.reference_collision import COLLISION_IN_TIME, SOURCE, priced
 from ptmcalc.machines.crane.travelling.scenes import RailStep, Skew, Storm
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.machines.crane.travelling.witness_collision import COLLISION_IN_TIME, SOURCE, priced
-from ptmcalc.witness import lumped, lumped_history, two_runs
+from ptmcalc.reference import lumped, lumped_history, two_runs
 
 FloatArray = NDArray[np.float64]
 _LOOKS = 64

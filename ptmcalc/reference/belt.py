@@ -1,4 +1,4 @@
-"""Finite elements of a whole belt with drums that slip, brakes and idlers that stick: a witness.
+"""Finite elements of a whole belt with drums that slip, brakes and idlers that stick: a reference.
 
 Shares nothing with the characteristics in `numerics.belt`. Lumped masses and springs in equal steps of travel time,
 central differences in time next to the limit of stability, where fronts disperse least.

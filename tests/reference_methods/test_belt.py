@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ptmcalc.witness.belt import Length, Plan, Roller, shared_out, simulate
+from ptmcalc.reference.belt import Length, Plan, Roller, shared_out, simulate
 
 BELT = (Length(400.0, 30.0, 20e6), Length(400.0, 120.0, 20e6))
 

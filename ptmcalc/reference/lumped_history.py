@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ptmcalc.witness.mechanism import Mechanism
-from ptmcalc.witness.mechanism_coordinates import FloatArray
+from ptmcalc.reference.mechanism import Mechanism
+from ptmcalc.reference.mechanism_coordinates import FloatArray
 
 
 @dataclass(frozen=True, slots=True)

@@ -195,7 +195,7 @@ MESH: Solver[ChainDrive, Run] = Solver(
     gives=OF_TENSION | {"tension_dynamic_polygon", "tension_dynamic_polygon_min", "tension_dynamic_polygon_far"},
     run=run,
     cost=lambda spec, scene, carried, level: 1.0,
-    source="finite elements between two engagements; derived in ptmcalc.machines.chain_drive.witness",
+    source="finite elements between two engagements; derived in ptmcalc.machines.chain_drive.reference",
     valid=valid,
     always=frozenset({POLYGON}),
 )
@@ -327,9 +327,9 @@ MESH_HARMONICS: Solver[ChainDrive, Run] = Solver(
     gives=MESH.gives,
     run=run_harmonics,
     cost=lambda spec, scene, carried, level: 0.6,
-    source="finite elements under the harmonics of the teeth; derived in ptmcalc.machines.chain_drive.witness",
+    source="finite elements under the harmonics of the teeth; derived in ptmcalc.machines.chain_drive.reference",
     valid=valid_harmonics,
     always=frozenset({POLYGON}),
 )
 
-WITNESSES = (MESH, MESH_HARMONICS)
+REFERENCE_METHODS = (MESH, MESH_HARMONICS)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.witness.mechanism import Equations, Mechanism, shares_at_rest
-from ptmcalc.witness.mechanism_coordinates import OPEN, Branch, FloatArray, State
-from ptmcalc.witness.rest_programme import RestProgramme
+from ptmcalc.reference.mechanism import Equations, Mechanism, shares_at_rest
+from ptmcalc.reference.mechanism_coordinates import OPEN, Branch, FloatArray, State
+from ptmcalc.reference.rest_programme import RestProgramme
 
 _SMALL = 1e-9
 

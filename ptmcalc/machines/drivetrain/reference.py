@@ -13,8 +13,8 @@ from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of, rigid
 from ptmcalc.machines.drivetrain.motion import simulation
 from ptmcalc.machines.drivetrain.motion.loads import MOVING
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
-from ptmcalc.witness import lumped, lumped_cost, two_runs
-from ptmcalc.witness.lumped_history import History
+from ptmcalc.reference import lumped, lumped_cost, two_runs
+from ptmcalc.reference.lumped_history import History
 
 _AS_GOOD_AS_STILL = 1e-6
 """Speed relative to the largest of the scene [1] that counts as nearly standstill. A numerical choice: the steps do not
@@ -108,10 +108,10 @@ DORMAND_PRINCE: Solver[Drivetrain, TrainScene] = Solver(
     gives=MOVING,
     run=run,
     cost=cost,
-    source="Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I; derived in ptmcalc.witness",
+    source="Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I; derived in ptmcalc.reference",
     valid=valid,
     always=frozenset({"elasticity"}),
     levels=2,
 )
 
-WITNESSES = (DORMAND_PRINCE,)
+REFERENCE_METHODS = (DORMAND_PRINCE,)

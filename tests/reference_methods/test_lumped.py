@@ -9,7 +9,7 @@ from support.trains import train_of
 
 from ptmcalc.numerics.train.parts import Body, Drive, Grip, Mesh, Spring, Train
 from ptmcalc.numerics.train.signals import Signal
-from ptmcalc.witness import lumped, two_runs
+from ptmcalc.reference import lumped, two_runs
 
 SEEDS = [0, 3, 7, 10, 16, 22, 1001, *(pytest.param(seed, marks=pytest.mark.study) for seed in range(23, 83))]
 """Trains with springs, play, lossy gears, brakes and clutches; those above 1000 with curved contacts."""

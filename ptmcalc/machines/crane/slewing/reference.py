@@ -25,7 +25,7 @@ from ptmcalc.machines.crane.slewing.rotation.loads import OF_THE_CHAIN
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
 from ptmcalc.machines.crane.slewing.sway.slew import ALWAYS, hangs
-from ptmcalc.witness import lumped, lumped_history, two_runs
+from ptmcalc.reference import lumped, lumped_history, two_runs
 
 FloatArray = NDArray[np.float64]
 Torque = Callable[[float, float], float]
@@ -334,4 +334,4 @@ CARTESIAN: Solver[SlewingCrane, SlewingScene] = Solver(
     levels=2,
 )
 
-WITNESSES = (CARTESIAN,)
+REFERENCE_METHODS = (CARTESIAN,)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ptmcalc.witness.mechanism import Mechanism, shares_at_rest
-from ptmcalc.witness.mechanism_coordinates import FloatArray, State
+from ptmcalc.reference.mechanism import Mechanism, shares_at_rest
+from ptmcalc.reference.mechanism_coordinates import FloatArray, State
 
 
 class RestProgramme:

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from ptmcalc.numerics.train.parts import Governed, Train
-from ptmcalc.witness.lumped import TOLERANCES
-from ptmcalc.witness.mechanism import Mechanism
+from ptmcalc.reference.lumped import TOLERANCES
+from ptmcalc.reference.mechanism import Mechanism
 
 _A_STEP, _FOLLOWED, _STABLE, _FADES = 6e-4, 1.2, 5.0, 20.0
 """Seconds of a step with what is looked for in it; its largest product with an eigenvalue, as long as that component is

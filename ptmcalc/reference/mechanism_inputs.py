@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.numerics.train.parts import Smooth, Spring
-from ptmcalc.witness.mechanism_coordinates import Coordinates, FloatArray, State
+from ptmcalc.reference.mechanism_coordinates import Coordinates, FloatArray, State
 
 
 @dataclass
