@@ -197,7 +197,7 @@ def pieces_of(whole: AnyKind) -> "Mapping[str, Mapping[str, Sequence[Shared]]]":
                 _add(of["checks"], check.code, kind, check, partial(_check, whole))
         for effect in kind.effects:
             _add(of["effects"], effect.name, kind, effect, partial(_effect, whole))
-        for solver in (*kind.solvers, *kind.witnesses):
+        for solver in (*kind.solvers, *kind.reference_methods):
             _add(of["solvers"], solver.name, kind, solver, partial(_solver, whole))
         for load in kind.loads:
             if len(whole.manifests) == 1 or any(load.name in solver.gives for solver in kind.solvers):
@@ -279,7 +279,7 @@ def _solver(whole: AnyKind, kinds: Sequence[AnyKind], solver: AnySolver) -> Expl
     remarks = ["Simulated effects: " + (", ".join(sorted(solver.represents)) or "none")]
     if not solver.decides:
         remarks.append("It is shown next to the reported load and never decides a verdict.")
-    if solver in kind.witnesses:
+    if solver in kind.reference_methods:
         remarks.append("Reference method, never used for a verdict; `ptmcalc cost` compares the other solvers with it.")
     same = [one.name for one in kind.solvers if one.way == solver.way and one.name != solver.name]
     if same:

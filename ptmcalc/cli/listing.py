@@ -18,8 +18,10 @@ from ptmcalc.engine.forecast import Foreseen, foresee
 from ptmcalc.engine.load import Loaded, load_file, load_text
 from ptmcalc.engine.plan import ScenePlan, plan
 from ptmcalc.engine.registry import kind_names, load_kind
+from ptmcalc.engine.widen import absent
 from ptmcalc.report import Format, json, render, words
 from ptmcalc.report.table import listing
+from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.shape import did_you_mean
 
 Row = dict[str, Any]
@@ -53,7 +55,7 @@ def show_plan(paths: Sequence[str], options: Options, as_json: bool) -> int:
             continue
         made = plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
         for scene, coming in zip(made.scenes, foresee(made), strict=True):
-            found = list(_plan_rows(scene, coming))
+            found = list(_plan_rows(loaded.spec, scene, coming))
             rows += [{"path": path} | row | {"criterion": json.criterion(row["criterion"])} for row in found]
             tables.append(_planlisted(path, found))
     say(json.rows(rows) if as_json else "\n".join(tables))
@@ -66,10 +68,11 @@ def _planlisted(path: str, rows: Sequence[Row]) -> str:
     about = show(first["predicted_seconds"], TIME, 2)
     title = f"{words.printable(path)}  {first['scene']}: {first['solver']}, predicted {about}\n"
     columns = ("effect", "will be", "number", "meaning")
-    return title + (listed(columns, [_plan_cells(row) for row in rows]) if first["effect"] else "")
+    cells = [_plan_cells(row) for row in rows if row["effect"] and not row["absent"]]
+    return title + (listed(columns, cells) if cells else "")
 
 
-def _plan_rows(scene: ScenePlan, coming: Foreseen) -> Iterator[Row]:
+def _plan_rows(spec: MachineSpec, scene: ScenePlan, coming: Foreseen) -> Iterator[Row]:
     """A row per effect, with the solver that the ladder comes to; cheap runs are made to see how far."""
     common = {
         "scene": scene.scene.label,
@@ -84,9 +87,10 @@ def _plan_rows(scene: ScenePlan, coming: Foreseen) -> Iterator[Row]:
             "state": state.value,
             "forced": planned.forced,
             "criterion": planned.criterion,
+            "absent": absent(planned, spec, scene, coming.settled.estimates, coming.carried),
         }
     if not scene.effects:
-        yield common | {"effect": None, "state": None, "forced": False, "criterion": None}
+        yield common | {"effect": None, "state": None, "forced": False, "criterion": None, "absent": False}
 
 
 def _plan_cells(row: Row) -> list[str]:

@@ -67,7 +67,7 @@ def _of_pieces(kind: AnyKind, chapter: str, name: str, types: Sequence[AnyKind])
     """The definition of what some types of a kind call by a name, then its functions. Each type may have its own."""
     having: dict[int, tuple[Any, list[AnyKind]]] = {}
     for one in types:
-        pieces = (*one.solvers, *one.witnesses) if chapter == "solvers" else getattr(one, chapter)
+        pieces = (*one.solvers, *one.reference_methods) if chapter == "solvers" else getattr(one, chapter)
         for piece in pieces:
             if name in (getattr(piece, attribute, None) for attribute in _NAMING):
                 having.setdefault(id(piece), (piece, []))[1].append(one)

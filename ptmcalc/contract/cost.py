@@ -15,8 +15,8 @@ class Role(StrEnum):
     """a check may run it"""
     FORMULA = "formula"
     """a textbook formula: shown for comparison, never decides"""
-    WITNESS = "witness"
-    """reference method, used for comparison only"""
+    REFERENCE = "witness"
+    """reference method, used for comparison only; reports keep the word of schema version 1"""
 
 
 class Outcome(StrEnum):

@@ -1,14 +1,14 @@
 """Additions of `explain` to a check, an effect, a solver or a load: symbols and a runnable example.
 
-Both are files in the folder of a kind, read only on request. `symbols.txt` is written by hand. A line
-`S: tension of the belt [N]` is followed by the names of the pages on which the letter has that meaning, set in by four
-columns. A letter has no meaning on any other page. `examples.json` is written by the test that holds it
-(`tests/house/test_explain.py`).
+Both are files in the folder of a kind, read only on request. `symbols.txt` is written by hand, in the folder of a topic
+for pages of that topic alone, otherwise in that of the kind. A line `S: tension of the belt [N]` is followed by the
+names of the pages on which the letter has that meaning, set in by four columns. A letter has no meaning on any other
+page. `examples.json` is written by the test that holds it (`tests/house/test_explain.py`).
 """
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 SYMBOLS, EXAMPLES = "symbols.txt", "examples.json"
@@ -50,40 +50,45 @@ def no_examples() -> Mapping[str, Example]:
 
 
 def symbols_in(package: str) -> Callable[[], Symbols]:
-    """The `symbols.txt` in the folder of a kind."""
+    """Each `symbols.txt` in the folder of a kind and in those of its topics."""
 
     def read() -> Symbols:
-        lines = [line for line in _file(package, SYMBOLS).splitlines() if line and not line.startswith("#")]
+        from ptmcalc.spec.rooms import texts_in
+
         found: dict[tuple[str, str], Symbol] = {}
-        letter, symbol = "", None
-        for line in lines:
-            if line.startswith("    ") and symbol is not None:
-                places = [(name, letter) for name in line.split()]
-                if found.keys() & set(places):
-                    raise ValueError(
-                        f"{SYMBOLS} of {package}: `{letter}` has a meaning on each page of `{line}` already"
-                    )
-                found |= dict.fromkeys(places, symbol)
-                continue
-            match = _LINE.fullmatch(line)
-            if match is None:
-                raise ValueError(f"{SYMBOLS} of {package}: `{line}` is no `symbol: meaning [unit]`")
-            letter, symbol = match[1], Symbol(match[2], match[3])
+        for room, text in texts_in(package, SYMBOLS).items():
+            for place, symbol in _symbols(room, text):
+                if place in found:
+                    raise ValueError(f"{SYMBOLS} of {room}: `{place[1]}` has a meaning on page `{place[0]}` already")
+                found[place] = symbol
         return found
 
     return read
+
+
+def _symbols(room: str, text: str) -> Iterator[tuple[tuple[str, str], Symbol]]:
+    """Page, letter and meaning, from the lines of a file."""
+    letter, symbol = "", None
+    for line in text.splitlines():
+        if not line or line.startswith("#"):
+            continue
+        if line.startswith("    ") and symbol is not None:
+            for name in line.split():
+                yield (name, letter), symbol
+            continue
+        match = _LINE.fullmatch(line)
+        if match is None:
+            raise ValueError(f"{SYMBOLS} of {room}: `{line}` is no `symbol: meaning [unit]`")
+        letter, symbol = match[1], Symbol(match[2], match[3])
 
 
 def examples_in(package: str) -> Callable[[], Mapping[str, Example]]:
     """The `examples.json` in the folder of a kind."""
 
     def read() -> Mapping[str, Example]:
-        return {name: Example(*one) for name, one in json.loads(_file(package, EXAMPLES)).items()}
+        from importlib import resources
+
+        text = resources.files(package).joinpath(EXAMPLES).read_text("utf-8")
+        return {name: Example(*one) for name, one in json.loads(text).items()}
 
     return read
-
-
-def _file(package: str, name: str) -> str:
-    from importlib import resources
-
-    return resources.files(package).joinpath(name).read_text("utf-8")

@@ -56,7 +56,7 @@ def nothing_to_say(spec: MachineSpec) -> Iterable[Finding]:
     return ()
 
 
-def no_witnesses() -> tuple[AnySolver, ...]:
+def no_reference_methods() -> tuple[AnySolver, ...]:
     """For a kind without reference methods."""
     return ()
 
@@ -98,7 +98,7 @@ class MachineKind(Generic[S]):
     uses: Mapping[str, Use] = field(default_factory=dict, hash=False)
     """by key, as `base.column`: where the constant that its declaration assumes is used; everywhere if not named"""
 
-    seconding: Callable[[], tuple[AnySolver, ...]] = no_witnesses
+    seconding: Callable[[], tuple[AnySolver, ...]] = no_reference_methods
     """reads solvers of another method that no plan offers: `cost` holds what the planned ones find against theirs"""
 
     type: str = ""
@@ -124,7 +124,7 @@ class MachineKind(Generic[S]):
         return self.starting()
 
     @property
-    def witnesses(self) -> tuple[AnySolver, ...]:
+    def reference_methods(self) -> tuple[AnySolver, ...]:
         """Reference methods, which no plan contains."""
         return self.seconding()
 
@@ -174,9 +174,9 @@ def template_in(package: str) -> Callable[[], str]:
     return read
 
 
-def witnesses_in(package: str) -> Callable[[], tuple[AnySolver, ...]]:
-    """The `WITNESSES` in the module `witness` of a kind, read when `cost` asks."""
-    return lambda: import_module(f"{package}.witness").WITNESSES
+def reference_methods_in(package: str) -> Callable[[], tuple[AnySolver, ...]]:
+    """The `REFERENCE_METHODS` in the module `reference` of a kind, read when `cost` asks."""
+    return lambda: import_module(f"{package}.reference").REFERENCE_METHODS
 
 
 def of_types(

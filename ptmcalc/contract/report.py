@@ -84,6 +84,8 @@ class EffectReport:
     criterion: Criterion | None
     note: str = ""
     change: Change | None = None
+    absent: bool = False
+    """True if there is none of it in the scene, such as a part that the machine does not have: tables omit it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,6 +160,16 @@ class SceneReport:
     events: tuple[Event, ...] = ()
     figures: tuple[FigureReport, ...] = ()
     """figures, if requested"""
+
+    @property
+    def present(self) -> tuple[EffectReport, ...]:
+        """The effects that the scene can have. Tables list these alone: a report changes only with its own machine."""
+        return tuple(effect for effect in self.effects if not effect.absent)
+
+    def simulated(self, solver: SolverReport) -> tuple[str, ...]:
+        """The effects of the scene that a run simulated."""
+        absent = {effect.name for effect in self.effects if effect.absent}
+        return tuple(name for name in solver.effects if name not in absent)
 
 
 @dataclass(frozen=True, slots=True)

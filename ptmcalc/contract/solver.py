@@ -30,7 +30,7 @@ class Solver(Generic[S, C]):
     predicts its seconds. `valid` gives the criterion that must not be exceeded. `always` names effects that are in
     every run of it, asked for or not: it is not used where one is excluded. A solver that does not decide is a textbook
     formula: shown beside the reported load, never judged. `method` names the code it computes by where several solvers
-    share one: they are no witnesses of each other.
+    share one: they are no references of each other.
     """
 
     name: str

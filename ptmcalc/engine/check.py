@@ -41,6 +41,7 @@ from ptmcalc.engine.settled import Run, Settled
 from ptmcalc.engine.solve import variants
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
 from ptmcalc.engine.waive import about_waivers, waived
+from ptmcalc.engine.widen import absent
 from ptmcalc.spec.alias import said_as_written
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
@@ -343,6 +344,7 @@ class _Assembly:
                 criterion=planned.criterion,
                 note=_note(planned, carried),
                 change=self._change(name) if planned in near else None,
+                absent=absent(planned, self.spec, self.settled.plan, self.settled.estimates, carried),
             )
 
     def _change(self, name: str) -> Change | None:

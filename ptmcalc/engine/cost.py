@@ -28,7 +28,7 @@ MARGINS = "margins"
 WORK_BUDGET = 10.0
 """Predicted seconds of one run of every setting of a file; settings of higher cost are named, not run. A numerical
 choice: a larger value measures more settings and takes longer."""
-_WITNESS_SHARE = 0.25
+_REFERENCE_SHARE = 0.25
 """Share of that budget for the reference methods of a scene [1]. A numerical choice: a larger value allows finer
 references and leaves less for the settings."""
 MOST_RUNS = 5
@@ -120,8 +120,8 @@ class _Candidate:
 
 
 def _candidates(kind: AnyKind, spec: MachineSpec, scene: ScenePlan, budget: float) -> Iterator[_Candidate]:
-    """The rungs of the ladder, cheap to dear, the formulas shown beside them, and the witnesses of the kind; where
-    none of these can tell anything, they stand there with the reason."""
+    """The rungs of the ladder, cheap to dear, the formulas shown beside them, and the reference methods of the kind;
+    where none of these can tell anything, they stand there with the reason."""
     for solver in scene.formulas:
         yield _Candidate(
             Rung(solver, solver.represents, 0, solver.cost(spec, scene.scene, frozenset(), 0)), Role.FORMULA
@@ -132,32 +132,34 @@ def _candidates(kind: AnyKind, spec: MachineSpec, scene: ScenePlan, budget: floa
         yield _Candidate(rung, Role.LADDER, " all" if fuller else "")
     seen = [
         one
-        for witness in kind.witnesses
-        if type(scene.scene) in witness.scenes
-        for one in _of_witness(witness, spec, scene, _WITNESS_SHARE * budget)
+        for method in kind.reference_methods
+        if type(scene.scene) in method.scenes
+        for one in _of_method(method, spec, scene, _REFERENCE_SHARE * budget)
     ]
     yield from (one for one in seen if not one.reason or all(other.reason for other in seen))
 
 
-def _of_witness(witness: AnySolver, spec: MachineSpec, scene: ScenePlan, most: float) -> Iterator[_Candidate]:
-    """A witness with all it can carry, at its finest affordable refinement; or why it can tell nothing here."""
+def _of_method(method: AnySolver, spec: MachineSpec, scene: ScenePlan, most: float) -> Iterator[_Candidate]:
+    """A reference method with all it can carry, at its finest affordable refinement; or why it can tell nothing
+    here."""
     allowed = frozenset(planned.effect.name for planned in scene.effects) - scene.excluded
-    if not witness.always <= allowed:
+    if not method.always <= allowed:
         return
-    carried = allowed & witness.represents
-    beyond = witness.valid(spec, scene.scene)
+    carried = allowed & method.represents
+    beyond = method.valid(spec, scene.scene)
     if beyond is not None and beyond.exceeded:
-        yield _Candidate(Rung(witness, carried, 0, 0.0), Role.WITNESS, reason=beyond.meaning)
+        yield _Candidate(Rung(method, carried, 0, 0.0), Role.REFERENCE, reason=beyond.meaning)
         return
     rungs = [
-        Rung(witness, carried, level, witness.cost(spec, scene.scene, carried, level))
-        for level in range(witness.levels)
+        Rung(method, carried, level, method.cost(spec, scene.scene, carried, level)) for level in range(method.levels)
     ]
     cheap = next((rung for rung in reversed(rungs) if rung.seconds <= most), None)
     if cheap is None:
-        yield _Candidate(rungs[0], Role.WITNESS, reason=f"more than the {show(most, TIME, 2)} a second method may take")
+        yield _Candidate(
+            rungs[0], Role.REFERENCE, reason=f"more than the {show(most, TIME, 2)} a second method may take"
+        )
     else:
-        yield _Candidate(cheap, Role.WITNESS)
+        yield _Candidate(cheap, Role.REFERENCE)
 
 
 def _affordable(made: Plan, budget: float) -> float:

@@ -49,7 +49,7 @@ choice: more runs treat more branches and take longer where each has few points.
 _MOST_CORNERS = 256
 """Corners of the box of all points at which a file is validated. A numerical choice: 8 keys have all of theirs, more
 keys a part. More corners find more refused combinations before the run and take longer."""
-_WITNESSES = 24
+_VERIFIED = 24
 """Points of a scene that are verified as files of their own, in addition to one of each block. A numerical choice: more
 find a difference more certainly and take longer."""
 _SAME = 1e-9
@@ -283,7 +283,7 @@ class Study:
 
     def _scene_by_lanes(self, label: str) -> None:
         before = dict(self.points.tracks), dict(self.points.loads)
-        witnesses = 0
+        verified = 0
         for first in range(0, self._sound.size, BLOCK):
             block = self._sound[first : first + BLOCK]
             parts = lanes.parted(block, partial(self._by_lanes, label), _MOST_RUNS)
@@ -292,8 +292,8 @@ class Study:
                 reason = found if isinstance(found, str) else ""
                 if isinstance(found, _Found):
                     self._keep(label, where, found)
-                    if number == 0 or witnesses < _WITNESSES:
-                        witnesses += 1
+                    if number == 0 or verified < _VERIFIED:
+                        verified += 1
                         reason = self._differs(label, int(where[where.size // 2]), found)
                 if reason:
                     self.points.tracks, self.points.loads = before

@@ -1,4 +1,4 @@
-"""Work balance by its own quadrature: the independent witness of a simulation."""
+"""Work balance by its own quadrature: the independent reference of a simulation."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -46,7 +46,7 @@ def _rows(settings: Sequence[Setting]) -> Iterator[tuple[str, ...]]:
     numbers = {one.name: str(k) for k, one in enumerate(settings, 1)}
     for one in settings:
         mark = f"{numbers[one.name]}{'*' * one.front_of_bars}{'o' * one.front_of_errors}"
-        name = one.name + {Role.FORMULA: " f", Role.WITNESS: " w"}.get(one.role, "")
+        name = one.name + {Role.FORMULA: " f", Role.REFERENCE: " w"}.get(one.role, "")
         predicted = seconds(one.predicted_seconds)
         if one.outcome is not Outcome.MEASURED:
             yield (mark, name, one.outcome.value.replace("_", " "), predicted, "", "", "", "")
@@ -123,7 +123,7 @@ def conclusion(report: CostReport) -> str:
     parts = [_of_margins(report)]
     parts += [_of_accuracy(report, target) for target in report.targets if target != MARGINS]
     parts.append(_of_bars(report.settings))
-    left = [one for one in report.settings if one.outcome is Outcome.NOT_RUN and one.role is not Role.WITNESS]
+    left = [one for one in report.settings if one.outcome is Outcome.NOT_RUN and one.role is not Role.REFERENCE]
     failed = [one for one in report.settings if one.outcome is Outcome.FAILED]
     if failed:
         parts.append(f"{_counted(len(failed), 'setting')} failed")

@@ -16,7 +16,7 @@ _GRID = ("steps", "cells")
 
 def effects(console: Console, scenes: Iterable[SceneReport]) -> None:
     """The ledger: what became of each effect, by what number, and what it changes where that is close."""
-    rows = [(scene.name, effect) for scene in scenes for effect in scene.effects]
+    rows = [(scene.name, effect) for scene in scenes for effect in scene.present]
     if not rows:
         return
     table = new_table("Effects", "scene", "effect", "state", "number", "meaning", "if neglected")
@@ -70,7 +70,7 @@ def solvers(console: Console, scenes: Iterable[SceneReport]) -> None:
         [
             scene.name,
             solver.name if solver.decides else f"{solver.name} (shown only)",
-            ", ".join(solver.effects) if solver.decides else "",
+            ", ".join(scene.simulated(solver)) if solver.decides else "",
             str(solver.work),
             words.priced(solver.next) if solver.next else "",
         ]

@@ -203,6 +203,8 @@ def _effect(effect: EffectReport) -> dict[str, Any]:
     }
     if effect.note:
         entry["note"] = effect.note
+    if effect.absent:
+        entry["absent"] = True
     if effect.change:
         entry["change_without"] = {"load": effect.change.load, "relative": effect.change.relative}
     return entry

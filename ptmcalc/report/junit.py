@@ -36,7 +36,7 @@ def _suite(report: FileReport) -> Xml.Element:
     cases = [_validity(report, found)]
     cases += [_check(report, entry) for entry in found if isinstance(entry.state, Verdict)]
     for scene in report.scenes:
-        cases += [_effect(report, scene.name, one) for one in scene.effects if one.state is EffectState.SKIPPED]
+        cases += [_effect(report, scene.name, one) for one in scene.present if one.state is EffectState.SKIPPED]
     counted = {
         name: str(sum(case.find(tag) is not None for case in cases))
         for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped"))

@@ -42,8 +42,8 @@ def _effects(scenes: Iterable[SceneReport]) -> Iterator[list[str]]:
     """States of the effects with their criteria; scenes with equal states are combined."""
     found: dict[tuple[str, ...], list[str]] = {}
     for scene in scenes:
-        if scene.effects:
-            found.setdefault(tuple(_states(scene.effects)), []).append(scene.name)
+        if scene.present:
+            found.setdefault(tuple(_states(scene.present)), []).append(scene.name)
     for said, names in found.items():
         yield [*_listed(names)[:-1], f"{names[-1]}:", *said]
 

@@ -121,7 +121,7 @@ def left_out(reports: Sequence[FileReport]) -> str:
         "event": sum(min(len(scene.events), MOST_EVENTS) for report in reports for scene in report.scenes),
     }
     whole = {
-        "meaning of the effects": any(scene.effects for report in reports for scene in report.scenes),
+        "meaning of the effects": any(scene.present for report in reports for scene in report.scenes),
         "all runs": any(scene.solvers for report in reports for scene in report.scenes),
         "reasons for assumptions": any(report.assumed for report in reports),
     }

@@ -17,6 +17,7 @@ from ptmcalc.spec.fields import Measure
 from ptmcalc.spec.synonyms import as_a_word, by_meaning, meanings
 
 Model = type[BaseModel]
+USUAL = "usual.txt"
 _MOST_PLACES = 3
 """Blocks that a hint names for a key that is in several."""
 
@@ -163,8 +164,8 @@ def words_of(annotation: Any) -> list[str]:
 def usual(model: Model, key: str) -> str:
     """A usual value of a key, as a design file writes it, or an empty text.
 
-    Each package lists those of its models, and of the packages in it, in `usual.txt`, which is read for hints and
-    schemas only.
+    Each package lists those of its models, and of the packages in it, in `usual.txt`; each folder of a topic may list
+    those that only its topic reads. The files are read for hints and schemas only.
     """
     listed = (_usual_values(one.__module__).get(f"{one.__name__}.{key}", "") for one in model.__mro__)
     return next((value for value in listed if value), "")
@@ -178,17 +179,17 @@ def _usual_values(module: str) -> Mapping[str, str]:
 def _usual_values_of(package: str) -> Mapping[str, str]:
     if not package:
         return {}
-    from importlib import resources
+    from ptmcalc.spec.rooms import texts_in  # for hints and schemas only
 
     try:
-        place = resources.files(package).joinpath("usual.txt")
-        if not place.is_file():
-            return _usual_values_of(package.rpartition(".")[0])
-        lines = place.read_text("utf-8").splitlines()
+        texts = texts_in(package, USUAL)
     except (ImportError, TypeError, OSError):  # a model that is in no package
         return {}
-    pairs = (line.partition(": ") for line in lines if not line.startswith("#"))
-    return MappingProxyType({name: value for name, _, value in pairs})
+    above = _usual_values_of(package.rpartition(".")[0])
+    if package not in texts:
+        return above
+    lines = (line for text in texts.values() for line in text.splitlines() if not line.startswith("#"))
+    return MappingProxyType({**above, **{name: value for name, _, value in (line.partition(": ") for line in lines)}})
 
 
 def example_at(model: Model | None, key: str) -> str:

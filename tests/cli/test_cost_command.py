@@ -96,7 +96,7 @@ def test_a_faulty_file_is_told_and_the_others_are_measured(tmp_path: Path) -> No
     assert "winding_map 0" in done.out
 
 
-def test_a_witness_and_a_shared_method_are_explained() -> None:
+def test_a_reference_and_a_shared_method_are_explained() -> None:
     assert "Reference method, never used for a verdict" in ptmcalc("explain", "cells").out
     assert "It uses the method of two_mass" in ptmcalc("explain", "hoist_train").out
     assert "It uses the method of" not in ptmcalc("explain", "characteristics").out

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.bars import THIRD, WIDEST, Limit, Trial, claim_of, misses, near, numbers, opposites, tried, verdicts, wide
 from support.chain_samples import usual_chain
-from support.chains import Witness, chain_of
+from support.chains import Reference, chain_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
@@ -126,7 +126,7 @@ def test_the_richest_run_holds_finite_elements_in_time() -> None:
         data.pop("drive", None)
         chain["damping"] = {"ratio": float(rng.uniform(0.02, 0.1))}
         truth = trial_of(2 * compared + 1, data).truth
-        force = Witness(data, 100).force
+        force = Reference(data, 100).force
         swing = max(force.max(), -force.min())
         for name, expected in (
             ("tension_dynamic_polygon", force.max()),

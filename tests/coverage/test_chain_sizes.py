@@ -1,6 +1,6 @@
 """Closed forms of the choice of a chain against lengths, levers and wear of their own.
 
-They claim no bar but rounding: what they say is what the witness finds, and no verdict is another.
+They claim no bar but rounding: what they say is what the reference finds, and no verdict is another.
 """
 
 import math
@@ -51,7 +51,7 @@ def trials(request: pytest.FixtureRequest) -> list[Trial]:
     return [trial_of(index) for index in request.param]
 
 
-def test_what_is_claimed_is_what_the_witness_finds(trials: list[Trial]) -> None:
+def test_what_is_claimed_is_what_the_reference_finds(trials: list[Trial]) -> None:
     assert misses(trials, WAY) == []
     assert all(trial.claims[WAY].keys() == trial.truth.keys() for trial in trials)
 

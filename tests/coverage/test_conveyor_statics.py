@@ -1,6 +1,6 @@
 """Closed forms of a conveyor that runs, stands, or comes to rest as one body, against sums of forces of their own.
 
-They claim no bar but rounding: what they say is what the witness finds, and no verdict of the ladder is another. The
+They claim no bar but rounding: what they say is what the reference finds, and no verdict of the ladder is another. The
 coefficient that a run-out tells is the one its way was made with.
 """
 
@@ -95,7 +95,7 @@ def machines(request: pytest.FixtureRequest) -> list[dict[str, Trial]]:
 
 
 @pytest.mark.parametrize("scene", WAYS)
-def test_what_is_claimed_is_what_the_witness_finds(machines: list[dict[str, Trial]], scene: str) -> None:
+def test_what_is_claimed_is_what_the_reference_finds(machines: list[dict[str, Trial]], scene: str) -> None:
     trials = [machine[scene] for machine in machines]
     assert misses(trials, scene) == []
     for trial in trials:

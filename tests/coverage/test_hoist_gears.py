@@ -20,7 +20,7 @@ WITHOUT_BARS = {"hoist": ("gear_backlash", "gear_elasticity")}
 KIND = load_kind("hoist")
 SEED, ALWAYS_TRIED = 1951, 16
 KNOWN = 1e-6
-"""What the witness is good for, as a share; of a force, of the largest."""
+"""What the reference is good for, as a share; of a force, of the largest."""
 WAYS: dict[str, frozenset[str]] = {
     "elastic with play": TRAIN.represents,
     "elastic": ALWAYS | {"structure", "gear_elasticity"},

@@ -56,7 +56,7 @@ TIGHTER = 1 / 3
 
 
 def random_hoist(rng: np.random.Generator, rope_share: float, structure: bool) -> tuple[Machine, dict[str, Any]]:
-    """A hoist by chance, as a witness knows it and as a file says it."""
+    """A hoist by chance, as a reference knows it and as a file says it."""
     load, falls = float(rng.uniform(2e3, 2e4)), int(rng.choice([2, 4]))
     weight, length = load * 9.81, float(rng.uniform(6, 20))
     deflection = float(10 ** rng.uniform(-2.2, -1))
@@ -110,7 +110,7 @@ def random_hoist(rng: np.random.Generator, rope_share: float, structure: bool) -
 
 
 def truths(one: Machine, scene: str, seen: Seen, pieces: int) -> Mapping[str, float]:
-    """What the witness says of each load."""
+    """What the reference says of each load."""
     found = {"rope_force_max": seen.most, "natural_frequency": hoist_ode.natural_frequency(one, pieces)}
     if one.structure is not None:
         found["bridge_force_max"] = seen.bridge
@@ -126,7 +126,7 @@ def truths(one: Machine, scene: str, seen: Seen, pieces: int) -> Mapping[str, fl
 
 
 def outside(one: Estimate, truth: float, tighter: float = 1.0) -> bool:
-    """Whether the truth lies outside a bar, or outside a part of it; half a millionth is the witness's own."""
+    """Whether the truth lies outside a bar, or outside a part of it; half a millionth is the reference's own."""
     low, high = one.value - tighter * (one.value - one.low), one.value + tighter * (one.high - one.value)
     slack = 5e-7 * abs(truth)
     return not low - slack <= truth <= high + slack
@@ -253,7 +253,7 @@ def test_a_rope_that_gets_shorter_stays_in_the_bars(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", [31, 32])
-def test_without_either_the_numbers_are_those_of_the_witness(seed: int) -> None:
+def test_without_either_the_numbers_are_those_of_the_reference(seed: int) -> None:
     """Both effects off: nothing is left but rounding, structure and losses included."""
     one, data = random_hoist(np.random.default_rng(seed), 1e-9, structure=True)
     data["effects"] = {"rope_mass": "off", "rope_shortening": "off"}

@@ -1,6 +1,6 @@
 """Closed forms of a hoist against balances of every sheave, turns laid one by one, and power through the gear.
 
-They claim no bar but rounding: what they say is what the witness finds, and no verdict of the ladder is another.
+They claim no bar but rounding: what they say is what the reference finds, and no verdict of the ladder is another.
 """
 
 import numpy as np
@@ -40,10 +40,10 @@ JUDGED = {
 def trials_of(index: int) -> dict[str, Trial]:
     rng = np.random.default_rng((SEED, index))
     data = random_hoist(rng)
-    spec, witness, found = loaded(data).spec, Statics(data), {}
+    spec, reference, found = loaded(data).spec, Statics(data), {}
     assert spec is not None
     for scene, asked in zip(spec.all_scenes, data["scenes"], strict=True):
-        truth = {name: known_to(REFERENCE, value) for name, value in getattr(witness, scene.type)(asked).items()}
+        truth = {name: known_to(REFERENCE, value) for name, value in getattr(reference, scene.type)(asked).items()}
         claims = {scene.type: claim(KIND, spec, scene, WAYS[scene.type])}
         found[scene.type] = tried(index, rng, KIND, spec, scene, claims, truth, LIMITS[scene.type])
     return found
@@ -55,7 +55,7 @@ def machines(request: pytest.FixtureRequest) -> list[dict[str, Trial]]:
 
 
 @pytest.mark.parametrize("scene", WAYS)
-def test_what_is_claimed_is_what_the_witness_finds(machines: list[dict[str, Trial]], scene: str) -> None:
+def test_what_is_claimed_is_what_the_reference_finds(machines: list[dict[str, Trial]], scene: str) -> None:
     trials = [machine[scene] for machine in machines]
     assert misses(trials, scene) == []
     for trial in trials:

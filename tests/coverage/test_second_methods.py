@@ -12,7 +12,7 @@ from ptmcalc.engine.load import load_file
 from ptmcalc.engine.plan import plan
 from ptmcalc.machines.chain_drive.polygon.distributed_strand import DISTRIBUTED_STRAND
 from ptmcalc.machines.chain_drive.polygon.excitation import FAR, POLYGON, WEAK
-from ptmcalc.machines.chain_drive.witness import MESH, MESH_HARMONICS
+from ptmcalc.machines.chain_drive.reference import MESH, MESH_HARMONICS
 
 SCENES = [
     ("specs/drivetrain.yaml", "braking_while_lowering", "dormand_prince"),
@@ -59,14 +59,14 @@ def found(path: str, label: str, name: str) -> tuple[Any, Any]:
     assert loaded.kind is not None
     assert loaded.spec is not None
     scene = next(one for one in plan(loaded.kind, loaded.spec, None).scenes if one.scene.label == label)
-    witness = next(one for one in loaded.kind.witnesses if one.name == name)
+    reference = next(one for one in loaded.kind.reference_methods if one.name == name)
     allowed = frozenset(one.effect.name for one in scene.effects) - scene.excluded
-    assert witness.usable_for(loaded.spec, scene.scene)
-    carried = allowed & witness.represents
-    shared = [rung for rung in scene.rungs if witness.gives & rung.solver.gives and rung.solver.always <= carried]
+    assert reference.usable_for(loaded.spec, scene.scene)
+    carried = allowed & reference.represents
+    shared = [rung for rung in scene.rungs if reference.gives & rung.solver.gives and rung.solver.always <= carried]
     rung = max(shared, key=lambda one: (len(one.carried & carried), one.seconds))
     own = rung.solver.run(loaded.spec, scene.scene, rung.carried & carried, rung.level)
-    return witness.run(loaded.spec, scene.scene, rung.carried & carried | witness.always, 0), own
+    return reference.run(loaded.spec, scene.scene, rung.carried & carried | reference.always, 0), own
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,7 @@ def _drawn(rng: np.random.Generator) -> Machine:
 
 @dataclass(frozen=True)
 class Case:
-    """A machine, the coarsest run of the tool, and two witnesses."""
+    """A machine, the coarsest run of the tool, and two references."""
 
     machine: Machine
     claimed: Result

@@ -26,7 +26,7 @@ from support.bars import (
     widest,
 )
 from support.machines import loaded
-from support.mast_fem import Witness
+from support.mast_fem import Reference
 from support.mast_steps import March
 from support.stacker_masts import random_stacker
 from support.stacker_statics import STEEL
@@ -45,7 +45,7 @@ KIND = next(one for one in load_kind("crane").types if one.type == "rack_stacker
 SEED, ALWAYS = 1940, 12
 COUNT, STEPS = 12, 3000
 KNOWN = {"mast_deflection_max": 2e-5, "mast_force_max": 2e-5, "start_time": 1e-6, "brake_time": 1e-6}
-"""What the witness is good for, as a share: its elements, and peaks between its steps."""
+"""What the reference is good for, as a share: its elements, and peaks between its steps."""
 WAYS: dict[str, tuple[Any, frozenset[str]]] = {
     "modes": (MAST_MODAL, MAST_MODAL.represents),
     "modes without weights": (MAST_MODAL, MAST_MODAL.always),
@@ -84,8 +84,8 @@ def trial_of(index: int) -> Trial:
     window = MAST_MODAL.run(spec, plan.scene, MAST_MODAL.represents, 0).window
     assert window is not None
 
-    def mast(count: int, **more: float) -> Witness:
-        return Witness(
+    def mast(count: int, **more: float) -> Reference:
+        return Reference(
             number(data["base"]["mass"]), length, bending, number(column["mass"]), mass, count,
             turn=turn, **{"pull": -G, "guide": 0.0 if play else stiff} | more,
         )  # fmt: skip

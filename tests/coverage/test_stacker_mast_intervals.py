@@ -22,7 +22,7 @@ from support.bars import (
     wide,
 )
 from support.machines import loaded
-from support.mast_fem import Witness, first_at_speed
+from support.mast_fem import Reference, first_at_speed
 from support.stacker_masts import OVERHEAD, random_stacker
 
 from ptmcalc.base.diagnostic import Verdict
@@ -71,12 +71,12 @@ def _time(data: dict[str, Any], spec: Stacker) -> Loads:
         return {}
     turn = _number(column["root_stiffness"]) if "root_stiffness" in column else None
     bending = 210e9 * _number(column["second_moment"])
-    witness = Witness(
+    reference = Reference(
         _number(data["base"]["mass"]), spec.column.length, bending, spec.column.mass, spec.load + spec.carriage.mass,
         32, pull=-9.81, turn=turn,
     )  # fmt: skip
     rise = _number(travel.get("driving_rise", "0 s"))
-    time = first_at_speed(witness, _number(travel["driving_force"]), _number(travel["speed"]), rise)
+    time = first_at_speed(reference, _number(travel["driving_force"]), _number(travel["speed"]), rise)
     return {"start_time": Estimate.within(time, 1e-6 * time)}
 
 

@@ -24,7 +24,7 @@ KIND = next(one for one in load_kind("crane").types if one.type == "rack_stacker
 SEED, ALWAYS = 1931, 24
 WAYS: dict[str, AnySolver] = {"on the rail": RAIL_RESPONSE, "off the rail": RAIL_JUMP}
 KNOWN = 1e-7
-"""What the witness is good for, as a share; of a contact, of the static load."""
+"""What the reference is good for, as a share; of a contact, of the static load."""
 LIMITS = (
     Limit("rail_detuning", ("checks", "rail_detuning"), 0.001, 10.0),
     Limit("column_stress", ("checks", "column_stress"), 1.0),

@@ -27,7 +27,7 @@ from support.bars import (
     widest,
 )
 from support.machines import loaded
-from support.mast_fem import Witness
+from support.mast_fem import Reference
 from support.stacker_statics import STEEL, Statics, random_stacker
 from support.travelling_statics import G, number, text
 
@@ -44,7 +44,7 @@ ON_TRIAL = {"crane": ("standing_modal", "mast_beam", "mast_gravity")}
 KINDS = {one.type: one for one in load_kind("crane").types}
 SEED, ALWAYS = 1936, 30
 COUNT = 32
-"""Elements of the witness, of half as many, and of the grid on which a carriage stands."""
+"""Elements of the reference, of half as many, and of the grid on which a carriage stands."""
 WAYS: dict[str, tuple[AnySolver, frozenset[str]]] = {
     "elements": (STANDING_MODAL, STANDING_MODAL.represents),
     "elements without weights": (STANDING_MODAL, STANDING_MODAL.always),
@@ -80,7 +80,7 @@ def standing(rng: np.random.Generator, kind: str) -> dict[str, Any]:
 
 def mast(
     data: dict[str, Any], whole: Statics, scene: dict[str, Any], share: float, count: int, free: bool = False
-) -> Witness:
+) -> Reference:
     """The column in elements, over a base that is held; `free` without its guide."""
     column, hangs = data["column"], data["type"] == "overhead_stacker"
     length, turns, shift, root = number(column["length"]), 1 / number(column["root_stiffness"]), None, 0.0
@@ -88,7 +88,7 @@ def mast(
         turned, shifted = whole.girders(length)
         turns, shift, root = turns + turned / length**2, 1 / shifted, number(data["trolley"]["mass"])
     guide = column.get("top_guide", {"gap": "0 m", "stiffness": "0 N/m"})
-    return Witness(
+    return Reference(
         1.0, length, STEEL * number(column["second_moment"]), whole.column, whole.climbing(scene), count,
         load_node=round(share * count), pull=G if hangs else -G, turn=1 / turns, shift=shift, root=root,
         guide=0.0 if free or number(guide["gap"]) else number(guide["stiffness"]),

@@ -1,6 +1,6 @@
 """Closed forms of stacker cranes against balances of the carriage, beams, weights, and the motion on the buffers.
 
-They claim no bar but rounding: what they say is what the witness finds, and no verdict of the ladder is another. The
+They claim no bar but rounding: what they say is what the reference finds, and no verdict of the ladder is another. The
 carriage has one where its file does not say how the rollers of both planes are put together: it holds both ways.
 """
 
@@ -47,7 +47,7 @@ WAYS: dict[str, AnySolver] = {
     "safety_gear": GEAR_CATCH,
 }
 KNOWN = {"hoist_up": 1e-10, "hoist_down": 1e-10, "stand": 1e-10, "buffer": 1e-7, "safety_gear": 1e-7}
-"""What the witness is good for, as a share."""
+"""What the reference is good for, as a share."""
 _HOIST = (
     Limit("roller_load", ("carriage", "rollers", "rating"), 1.0),
     Limit("rope_safety", ("checks", "rope_safety"), 0.01),
@@ -80,11 +80,11 @@ def trials_of(index: int) -> dict[str, Trial]:
     rng = np.random.default_rng((SEED, index))
     kind = KINDS["rack_stacker" if index % 3 else "overhead_stacker"]
     data, found = random_stacker(rng, str(kind.type)), {}
-    witness, spec = Statics(data, joint=bool(rng.random() < 0.5)), loaded(data).spec
+    reference, spec = Statics(data, joint=bool(rng.random() < 0.5)), loaded(data).spec
     assert spec is not None
     for scene, asked in zip(spec.all_scenes, data["scenes"], strict=True):
         name = "_".join([asked["type"], *([asked["direction"]] if "direction" in asked else [])])
-        truth = {load: known_to(KNOWN[name], value) for load, value in getattr(witness, asked["type"])(asked).items()}
+        truth = {load: known_to(KNOWN[name], value) for load, value in getattr(reference, asked["type"])(asked).items()}
         claims = {name: claim(kind, spec, scene, WAYS[name], WAYS[name].always)}
         found[name] = tried(index, rng, kind, spec, scene, claims, truth, LIMITS[name])
     return found
@@ -100,7 +100,7 @@ def of(machines: list[dict[str, Trial]], scene: str) -> list[Trial]:
 
 
 @pytest.mark.parametrize("scene", WAYS)
-def test_what_is_claimed_holds_what_the_witness_finds(machines: list[dict[str, Trial]], scene: str) -> None:
+def test_what_is_claimed_holds_what_the_reference_finds(machines: list[dict[str, Trial]], scene: str) -> None:
     trials = of(machines, scene)
     assert misses(trials, scene) == []
     for trial in trials:

@@ -43,7 +43,7 @@ ON_TRIAL = {
 }  # fmt: skip
 SEED, ALWAYS = 1907, 50
 REFERENCE = 2e-6
-"""What the witness is good for."""
+"""What the reference is good for."""
 KIND = next(one for one in load_kind("crane").types if one.type == "travelling")
 
 
@@ -59,7 +59,7 @@ def random_ramp(rng: np.random.Generator) -> Machine:
 
 
 def truths(one: Machine, seen: Seen) -> dict[str, float]:
-    """What the witness says of each load, with levers of its own."""
+    """What the reference says of each load, with levers of its own."""
     wheels = [_wheels(one, *state) for state in seen.states]
     grips = [
         0.5 * min(loads) / abs(traction / 4) if traction else math.inf

@@ -1,6 +1,6 @@
 """Closed forms of a travelling crane against balances of their own and the motion of a crane on its buffers.
 
-They claim no bar but rounding: what they say is what the witness finds, and no verdict of the ladder is another.
+They claim no bar but rounding: what they say is what the reference finds, and no verdict of the ladder is another.
 """
 
 import numpy as np
@@ -40,7 +40,7 @@ WAYS: dict[str, AnySolver] = {
     "rail_step": RAIL_RESPONSE,
 }
 KNOWN = {"run": 1e-9, "start": 1e-9, "storm": 1e-9, "skew": 1e-8, "collision": 2e-4, "rail_step": 1e-9}
-"""What the witness is good for, as a share; a root that is searched for, and a motion that is followed, to less."""
+"""What the reference is good for, as a share; a root that is searched for, and a motion that is followed, to less."""
 COARSE = {"wheel_spectrum_factor": 1e-8, "skew_force_slip": 1e-7}
 """A mean over many places; a balance that is met to 1e-9 of the weight."""
 LIMITS = {
@@ -73,13 +73,13 @@ JUDGED = {
 def trials_of(index: int) -> dict[str, Trial]:
     rng = np.random.default_rng((SEED, index))
     data = random_crane(rng)
-    spec, witness, found = loaded(data).spec, Statics(data), {}
+    spec, reference, found = loaded(data).spec, Statics(data), {}
     assert spec is not None
     for scene, asked in zip(spec.all_scenes, data["scenes"], strict=True):
         known = KNOWN[scene.type]
         truth = {
             name: known_to(max(known, COARSE.get(name, 0.0)), value)
-            for name, value in getattr(witness, scene.type)(asked).items()
+            for name, value in getattr(reference, scene.type)(asked).items()
         }
         claims = {scene.type: claim(KIND, spec, scene, WAYS[scene.type], WAYS[scene.type].always)}
         found[scene.type] = tried(index, rng, KIND, spec, scene, claims, truth, LIMITS[scene.type])
@@ -92,7 +92,7 @@ def machines(request: pytest.FixtureRequest) -> list[dict[str, Trial]]:
 
 
 @pytest.mark.parametrize("scene", WAYS)
-def test_what_is_claimed_is_what_the_witness_finds(machines: list[dict[str, Trial]], scene: str) -> None:
+def test_what_is_claimed_is_what_the_reference_finds(machines: list[dict[str, Trial]], scene: str) -> None:
     trials = [machine[scene] for machine in machines]
     assert misses(trials, scene) == []
     for trial in trials:

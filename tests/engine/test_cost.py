@@ -113,33 +113,33 @@ def test_what_is_beyond_the_budget_is_named_and_not_run() -> None:
     assert row(found, "one 2").seconds is None
 
 
-def test_a_formula_and_a_witness_have_a_row_and_are_never_chosen() -> None:
+def test_a_formula_and_a_reference_have_a_row_and_are_never_chosen() -> None:
     textbook = solver("book", pull(8), decides=False, **FORMULA)
     kind = kind_of(within(7, 9), textbook, seconding=lambda: (solver("seen", pull(8)),))
     found = costs(kind)
     assert {one.name: one.role for one in found.settings} == {
         "book 0": Role.FORMULA,
         "coarse 0": Role.LADDER,
-        "seen 0": Role.WITNESS,
+        "seen 0": Role.REFERENCE,
     }
     assert {name for one in found.choices for name in one.settings} == {"coarse 0"}
     assert not any(one.front_of_bars for one in found.settings if one.role is not Role.LADDER)
 
 
-def test_a_witness_runs_once_at_the_finest_setting_the_budget_has_room_for() -> None:
+def test_a_reference_runs_once_at_the_finest_setting_the_budget_has_room_for() -> None:
     seen = solver("seen", pull(8), seconds=1.0, levels=4)
-    assert row(costs(kind_of(within(7, 9), seconding=lambda: (seen,)), budget=50.0), "seen 1").role is Role.WITNESS
+    assert row(costs(kind_of(within(7, 9), seconding=lambda: (seen,)), budget=50.0), "seen 1").role is Role.REFERENCE
 
 
-def test_a_witness_that_can_tell_nothing_says_why_where_no_other_one_can() -> None:
+def test_a_reference_that_can_tell_nothing_says_why_where_no_other_one_can() -> None:
     dear, unfit = solver("dear", pull(8), seconds=99.0), solver("unfit", pull(8), valid=False)
     found = costs(kind_of(within(7, 9), seconding=lambda: (dear, unfit)))
-    reasons = {one.name: one.reason for one in found.settings if one.role is Role.WITNESS}
+    reasons = {one.name: one.reason for one in found.settings if one.role is Role.REFERENCE}
     assert set(reasons) == {"dear 0", "unfit 0"}
     assert reasons["dear 0"].endswith("a second method may take")
-    assert all(one.outcome is Outcome.NOT_RUN for one in found.settings if one.role is Role.WITNESS)
+    assert all(one.outcome is Outcome.NOT_RUN for one in found.settings if one.role is Role.REFERENCE)
     found = costs(kind_of(within(7, 9), seconding=lambda: (dear, unfit, solver("seen", pull(8)))))
-    assert [one.name for one in found.settings if one.role is Role.WITNESS] == ["seen 0"]
+    assert [one.name for one in found.settings if one.role is Role.REFERENCE] == ["seen 0"]
 
 
 # -- errors ----------------------------------------------------------------------------------------------------------

@@ -81,12 +81,12 @@ def conveyors() -> Iterator[tuple[str, Loaded]]:
 
 @pytest.mark.parametrize(("name", "loaded"), list(conveyors()), ids=lambda one: one if isinstance(one, str) else "")
 def test_lanes_are_files_of_their_own(name: str, loaded: Loaded) -> None:
-    """Every check of random conveyors, and of some with hollows and several drives: a witness that knows no lanes."""
+    """Every check of random conveyors, and of some with hollows and several drives: a reference that knows no lanes."""
     assert loaded.spec is not None
     compared = 0
     for number, scene in enumerate(one.label for one in loaded.spec.all_scenes if one.type == "run"):
         made = study(loaded, varied(loaded, number), scene)
-        with mock.patch("ptmcalc.engine.points._WITNESSES", 0):
+        with mock.patch("ptmcalc.engine.points._VERIFIED", 0):
             made.run_by_lanes()
         assert [note for note in made.points.notes if " points are no machines, the first since " not in note] == []
         assert made.by_lanes > SIZE / 2

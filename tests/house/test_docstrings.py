@@ -39,7 +39,7 @@ def parts_of_kinds() -> Iterator[tuple[str, Function]]:
         for effect in kind.effects:
             yield f"{effect.name}: criterion", effect.criterion
             yield f"{effect.name}: bound", effect.bound
-        for solver in (*kind.solvers, *kind.witnesses):
+        for solver in (*kind.solvers, *kind.reference_methods):
             yield f"{solver.name}: run", solver.run
             if solver.valid is not always_valid:
                 yield f"{solver.name}: valid", solver.valid

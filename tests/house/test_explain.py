@@ -10,6 +10,7 @@ write them anew after numbers have changed on purpose, and to find some for name
 import re
 import subprocess
 from contextlib import chdir
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -20,7 +21,9 @@ from ptmcalc.base.diagnostic import BROKEN, CODES
 from ptmcalc.base.units import unit_of
 from ptmcalc.cli import examples
 from ptmcalc.cli.explain import _everything, explanation, of_check, of_effect, of_solver, terms
+from ptmcalc.contract.example import SYMBOLS, Symbol, symbols_in
 from ptmcalc.contract.machine import AnyKind
+from ptmcalc.contract.topic import Topic
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.report import formula
 from ptmcalc.spec.synonyms import folded
@@ -78,7 +81,7 @@ def _letters(kind: AnyKind) -> dict[str, set[str]]:
     """By page, the letters of all its formulas."""
     pages = {check.code: of_check(check) for check in kind.checks}
     pages |= {effect.name: of_effect(effect) for effect in kind.effects}
-    pages |= {solver.name: of_solver(solver) for solver in (*kind.solvers, *kind.witnesses)}
+    pages |= {solver.name: of_solver(solver) for solver in (*kind.solvers, *kind.reference_methods)}
     return {name: set(formula.letters(text)) for name, text in pages.items()}
 
 
@@ -88,7 +91,7 @@ def test_every_letter_of_every_page_has_a_line_of_its_own(kind: AnyKind) -> None
     listed = kind.symbols()
     letters = {(name, letter) for name, of_page in _letters(kind).items() for letter in of_page}
     missing = {f"{name} {letter}" for name, letter in letters - listed.keys()}
-    assert missing == set(), "add a line for each to symbols.txt of the kind"
+    assert missing == set(), "add a line for each to symbols.txt of the topic or kind"
 
 
 @of_every_type
@@ -108,6 +111,49 @@ def test_no_line_of_symbols_is_of_nothing() -> None:
     for whole, one in TYPES.values():
         for name, letter in one.symbols():
             assert letter in letters[whole.name].get(name, ()), f"{name} {letter} is of nothing"
+
+
+def _pages_of_topics(folder: Path) -> set[str]:
+    """Names of the checks, effects and solvers of the topics that the modules in a folder define."""
+    files = [path.relative_to(ROOT).with_suffix("") for path in folder.rglob("*.py")]
+    modules = [import_module(".".join(path.parts).removesuffix(".__init__")) for path in files]
+    topics = [one for module in modules for one in vars(module).values() if isinstance(one, Topic)]
+    pieces = [piece for topic in topics for piece in (*topic.effects, *topic.solvers)]
+    return {piece.name for piece in pieces} | {check.code for topic in topics for check in topic.checks}
+
+
+TOPIC_FILES = [
+    path for path in sorted((ROOT / "ptmcalc" / "machines").rglob(SYMBOLS)) if (path.parent.parent / SYMBOLS).is_file()
+]
+
+
+@pytest.mark.parametrize("path", TOPIC_FILES, ids=lambda path: f"{path.parts[-3]}-{path.parts[-2]}")
+def test_a_topic_lists_symbols_of_its_own_pages(path: Path) -> None:
+    """Those of other pages are in the folder of the kind."""
+    lines = [line for line in path.read_text("utf-8").splitlines() if line.startswith("    ")]
+    listed = {name for line in lines for name in line.split()}
+    assert listed
+    assert listed <= _pages_of_topics(path.parent)
+
+
+def test_topics_list_symbols() -> None:
+    assert len(TOPIC_FILES) > len(TYPES)
+
+
+def test_a_letter_with_two_meanings_on_a_page_is_refused_across_topics(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    top = tmp_path / "some_machine"
+    for folder, text in ((top, "S: tension [N]\n    XYZ101\n"), (top / "topic", "S: area [m^2]\n    XYZ102\n")):
+        folder.mkdir()
+        (folder / "__init__.py").touch()
+        (folder / SYMBOLS).write_text(text, "utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    read = symbols_in("some_machine")
+    assert read() == {("XYZ101", "S"): Symbol("tension", "N"), ("XYZ102", "S"): Symbol("area", "m^2")}
+    (top / "topic" / SYMBOLS).write_text("S: area [m^2]\n    XYZ101\n", "utf-8")
+    with pytest.raises(ValueError, match=r"some_machine\.topic: `S` has a meaning on page `XYZ101` already"):
+        read()
 
 
 @pytest.mark.parametrize(

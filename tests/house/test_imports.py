@@ -128,7 +128,7 @@ def test_a_check_that_closed_forms_decide_imports_few_modules(tmp_path: Path) ->
     assert len(found) - len(ours) <= count_of(READY) + 25
     assert len(ours) <= 153
     assert not [name for name in ours if name.startswith("ptmcalc.machines.") and ".hoist" not in name]
-    assert not [name for name in ours if "witness" in name]
+    assert not [name for name in ours if "reference" in name]
 
 
 def test_help_imports_little_more_than_typer_and_rich(tmp_path: Path) -> None:

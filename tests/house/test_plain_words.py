@@ -154,7 +154,7 @@ def test_pages_have_no_house_word(page: Path) -> None:
         ("a rack that gives", ["that gives"]),
         ("efficiency of the tackle", ["tackle"]),
         ("a one-way clutch", []),
-        ("derived in ptmcalc.witness.belt", []),
+        ("derived in ptmcalc.numerics.rope.march", []),
         ("the file states the speed", []),
     ],
 )

@@ -49,7 +49,7 @@ from ptmcalc.engine.registry import kind_names, load_kind
 found = []
 for kind in (one for name in kind_names() for one in load_kind(name).manifests):
     checks = (one for one in kind.checks if not one.types or kind.type in one.types)
-    for one in (*checks, *kind.effects, *kind.solvers, *kind.witnesses, *kind.loads, *kind.figures):
+    for one in (*checks, *kind.effects, *kind.solvers, *kind.reference_methods, *kind.loads, *kind.figures):
         word, name, file, line = made[id(one)]
         lines = {other[3] for other in made.values() if other[:3] == (word, name, file)}
         found.append((word, name, kind.label, file, sorted(lines)))

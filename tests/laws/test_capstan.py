@@ -1,7 +1,7 @@
 """Grip of a drum against the equilibrium of the belt element, integrated numerically.
 
-Witness: dS/dphi = mu (S - rho v^2), the balance of a belt element that is about to slip, by an ODE solver. A drum that
-is not at its limit slips over part of its wrap only; the rest of the arc is what it has in reserve.
+Reference: dS/dphi = mu (S - rho v^2), the balance of a belt element that is about to slip, by an ODE solver. A drum
+that is not at its limit slips over part of its wrap only; the rest of the arc is what it has in reserve.
 """
 
 import math

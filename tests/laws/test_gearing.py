@@ -1,7 +1,7 @@
 """The mesh rule against a gear with explicit tooth friction: balances of both shafts, loss by the sign of the power.
 
-Witness: the mesh takes a loss torque from the fast shaft that always opposes the motion, (1/eta - 1)|T_out|/u when the
-motor drives and (1 - eta_r)|T_out|/u when the load does; accelerations are found by bisection on the balance.
+Reference: the mesh takes a loss torque from the fast shaft that always opposes the motion, (1/eta - 1)|T_out|/u when
+the motor drives and (1 - eta_r)|T_out|/u when the load does; accelerations are found by bisection on the balance.
 """
 
 import numpy as np

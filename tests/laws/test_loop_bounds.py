@@ -1,9 +1,9 @@
 """Bounds on the waves of a loop against finite elements of it.
 
-Witness: the loop as elements (`support.fem`), its modes, and from them the answer to a step of rim force or of drum
+Reference: the loop as elements (`support.fem`), its modes, and from them the answer to a step of rim force or of drum
 acceleration at every section and time. Elements are Galerkin's: their tensions are those of the belt up to the mesh,
-and nothing of `ptmcalc` is used to find them. Static quantities have a second witness, the field of acceleration of an
-opened loop, integrated strand by strand.
+and nothing of `ptmcalc` is used to find them. Static quantities have a second reference, the field of acceleration of
+an opened loop, integrated strand by strand.
 """
 
 import math

@@ -109,7 +109,7 @@ def of_rating(rated_slip: float, overload: float, ratio: float, slip: float) -> 
 
 
 @pytest.mark.parametrize("circuit", CIRCUITS)
-def test_the_witness_has_its_largest_torque_where_it_says(circuit: Circuit) -> None:
+def test_the_reference_has_its_largest_torque_where_it_says(circuit: Circuit) -> None:
     best = minimize_scalar(lambda s: -float(circuit.torque(s)), bounds=(1e-4, 60.0), method="bounded")
     assert -float(best.fun) == pytest.approx(circuit.curve[0], rel=1e-8)
     assert float(best.x) == pytest.approx(circuit.curve[1], rel=1e-3)  # a flat top: the search sees half the digits

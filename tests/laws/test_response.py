@@ -1,6 +1,7 @@
 """Responses over time against the matrix exponential of the system with its force as further states.
 
-Witness: z' = A z, z = (x, v, force states), solved by scipy's expm of A t; a sine takes two states, an exponential one.
+Reference: z' = A z, z = (x, v, force states), solved by scipy's expm of A t; a sine takes two states, an exponential
+one.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Sag of a belt span against the catenary, and the stiffness of a sagging span against its arc length.
 
-Witnesses: the exact catenary of weight w per metre of belt, solved for its horizontal tension; the length of belt in
-the span, differentiated numerically.
+Reference methods: the exact catenary of weight w per metre of belt, solved for its horizontal tension; the length of
+belt in the span, differentiated numerically.
 """
 
 import math

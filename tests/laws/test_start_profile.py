@@ -1,8 +1,8 @@
 """Start profiles against quadrature and differences; their phases against Duhamel's integral of many oscillators.
 
-Witness of the phases: x'' + w^2 x = w^2 q(t) from rest gives x - q = -integral of cos w(t - s) dq(s), so an oscillator
-answers with two running integrals of the slope of q (Gauss points inside the rise, its jumps by hand) and no closed
-form of any shape is used.
+Reference of the phases: x'' + w^2 x = w^2 q(t) from rest gives x - q = -integral of cos w(t - s) dq(s), so an
+oscillator answers with two running integrals of the slope of q (Gauss points inside the rise, its jumps by hand) and no
+closed form of any shape is used.
 """
 
 import itertools
@@ -201,7 +201,7 @@ def random_frequencies(lowest: float, count: int, seed: int) -> np.ndarray:
 LOWEST = np.exp(np.linspace(math.log(0.05), math.log(100), 41)).tolist()
 
 
-class TestWitness:
+class TestReference:
     """The running integrals themselves against an ODE solver."""
 
     @pytest.mark.parametrize(("shape", "imposed_speed"), STARTS[1:])

@@ -1,8 +1,8 @@
 """Waves of a belt against chains of masses, finite elements and delay differential equations.
 
-Witnesses: a chain of masses and springs (speed and impedance), the two conditions at a junction solved as linear
-equations (reflection), the drum's differential equation (first wave), and the delay differential equation of a uniform
-loop, integrated interval by interval (two contour times).
+Reference methods: a chain of masses and springs (speed and impedance), the two conditions at a junction solved as
+linear equations (reflection), the drum's differential equation (first wave), and the delay differential equation of a
+uniform loop, integrated interval by interval (two contour times).
 """
 
 import math

@@ -1,7 +1,7 @@
 """The whole belt in cells against finite elements that stick and slide without smoothing, and its own balances.
 
-The witness (`support.belt_fem`) has other nodes, another rule in time and another way to decide what sticks. Its waves
-disperse, so fronts differ by more than the rest: both the root mean square and the largest deviation are held.
+The reference (`support.belt_fem`) has other nodes, another rule in time and another way to decide what sticks. Its
+waves disperse, so fronts differ by more than the rest: both the root mean square and the largest deviation are held.
 """
 
 import itertools
@@ -89,7 +89,7 @@ def drawn(plan: Plan, cells: int, window: float, off: float, speed: float, froze
     return ready, march(*ready, speed, window)
 
 
-def witness(plan: Plan, elements: int, window: float, off: float, speed: float, frozen: bool) -> Motion:
+def reference(plan: Plan, elements: int, window: float, off: float, speed: float, frozen: bool) -> Motion:
     transit = [one.length * math.sqrt(one.line_mass / one.stiffness) for one in plan.lengths]
     counts = [max(round(elements * part / sum(transit)), 1) for part in transit]
     start, places = 0.0, []
@@ -219,7 +219,7 @@ SCENES: dict[str, tuple[Plan, float, float, float, bool, float]] = {
 def test_agrees_with_finite_elements(name: str) -> None:
     plan, window, off, speed, frozen, largest = SCENES[name]
     (_, head, tail, _), mine = drawn(plan, 400, window, off, speed, frozen)
-    mesh = witness(plan, 1000, window, off, speed, frozen)
+    mesh = reference(plan, 1000, window, off, speed, frozen)
     when = np.linspace(0.02, 0.98, 500) * window
     top = max(np.abs(mesh.head.on).max(), np.abs(mesh.tail.on).max())
     fast = max(np.abs(mesh.head.belt).max(), np.abs(mesh.tail.belt).max())
@@ -299,7 +299,7 @@ def test_agrees_with_finite_elements_on_belts_of_any_kind(seed: int) -> None:
     plan, off, speed, frozen = at_random(seed)
     window = 6.0
     _, mine = drawn(plan, 300, window, off, speed, frozen)
-    mesh = witness(plan, 800, window, off, speed, frozen)
+    mesh = reference(plan, 800, window, off, speed, frozen)
     when = np.linspace(0.02, 0.98, 300) * window
     top = max(np.abs(mesh.head.on).max(), np.abs(mesh.tail.on).max())
     fast = max(np.abs(mesh.head.belt).max(), np.abs(mesh.tail.belt).max(), 0.05)

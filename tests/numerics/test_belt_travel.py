@@ -1,7 +1,7 @@
 """A belt that runs so fast that its waves go faster with it than against it: echoes, and the equations on other nodes.
 
-The witness solves the two equations of a moving string by finite differences on a staggered grid with an adaptive rule
-in time, and imports nothing of the belt in cells.
+The reference solves the two equations of a moving string by finite differences on a staggered grid with an adaptive
+rule in time, and imports nothing of the belt in cells.
 """
 
 import math
@@ -64,7 +64,7 @@ class Loop:
         give = Give(course, Rubber(*self.rubber), EA) if self.rubber[0] else None
         return march(course, head, tail, np.full(course.cells, OFF), speed, window, give=give, travel=travel)
 
-    def witness(self, elements: int, speed: float = SPEED, moves: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    def reference(self, elements: int, speed: float = SPEED, moves: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Times, and tensions before and behind the drum: speeds at nodes, tensions between them; `moves` is 0 for a
         belt that does not carry its state along."""
         n, dx = elements, LENGTH / elements
@@ -138,8 +138,8 @@ LOOPS = {
 @pytest.mark.parametrize("name", LOOPS)
 def test_finite_differences_come_to_the_same_tensions(name: str) -> None:
     loop = LOOPS[name]
-    times, true = loop.witness(300)
-    _, still = loop.witness(300, moves=0.0)
+    times, true = loop.reference(300)
+    _, still = loop.reference(300, moves=0.0)
     ends = slice(0, 2) if loop.fixed else slice(0, 1)
     off = np.abs(heads(loop.run(600), times) - true)[ends].max()
     changed = np.abs(still - true)[ends].max()

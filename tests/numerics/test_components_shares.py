@@ -1,6 +1,6 @@
 """What finds a component in a state and who sees it: against the motion itself, taken apart by hand.
 
-Witness: scipy's exponential, and modes that are known without an eigenvalue solver.
+Reference: scipy's exponential, and modes that are known without an eigenvalue solver.
 """
 
 import math

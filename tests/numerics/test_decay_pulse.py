@@ -1,6 +1,7 @@
 """Oscillator under a pulse that ends: against the matrix exponential, quadrature, and dense samples of both.
 
-Witness: z' = A z, z = (x, v, two force states), by scipy's expm during the pulse and of the oscillator alone after it.
+Reference: z' = A z, z = (x, v, two force states), by scipy's expm during the pulse and of the oscillator alone after
+it.
 """
 
 import math
@@ -19,7 +20,7 @@ PAPER = DecayPulse(5.47, 0.0, 3.0, 96.0, 1.0, 5.0)
 SHORT = DecayPulse(5.47, 0.0, 3.0, 96.0, 1.0, 0.2)
 
 
-def witness(pulse: DecayPulse, time: float) -> np.ndarray:
+def reference(pulse: DecayPulse, time: float) -> np.ndarray:
     w, zeta, slow, fast = pulse.natural_frequency, pulse.damping_ratio, pulse.slow, pulse.fast
     system = np.zeros((4, 4))
     system[0, 1], system[1] = 1.0, (-w * w, -2 * zeta * w, pulse.acceleration, 0.0)
@@ -36,7 +37,7 @@ class TestMotion:
         pulse = DecayPulse(natural, zeta, slow, fast, 2.0, 1.1)
         times = np.array([0.0, 1e-4, 0.03, 0.4, 1.1, 1.3, 2.9])
         x, v = pulse.at(times)
-        expected = np.array([witness(pulse, t) for t in times])
+        expected = np.array([reference(pulse, t) for t in times])
         for found, column in ((x, expected[:, 0]), (v, expected[:, 1])):
             assert np.abs(found - column).max() <= 1e-12 * np.abs(column).max() + 1e-300
 
@@ -268,10 +269,10 @@ class TestLargest:
         pulse = DecayPulse(1.0, zeta, slow, fast, 1.0, duration)
         summit = pulse.largest()
         times = np.geomspace(3e-3, 300.0, 41)
-        at = [float(witness(pulse, t)[0]) for t in times]
+        at = [float(reference(pulse, t)[0]) for t in times]
         top = int(np.argmax(at))
-        time = brentq(lambda t: float(witness(pulse, t)[1]), times[top - 1], times[top + 1], rtol=1e-14)
-        assert summit.value == pytest.approx(float(witness(pulse, time)[0]), rel=1e-11)
+        time = brentq(lambda t: float(reference(pulse, t)[1]), times[top - 1], times[top + 1], rtol=1e-14)
+        assert summit.value == pytest.approx(float(reference(pulse, time)[0]), rel=1e-11)
         assert summit.time == pytest.approx(time, abs=2e-9 * zeta), "a billionth of the time of the way back, 2 z"
 
     @pytest.mark.parametrize("zeta", [0.1, 4.0])
@@ -280,10 +281,10 @@ class TestLargest:
         pulse = DecayPulse(0.1, zeta, 0.3, 9.0, 1.0, 500.0)
         turns = pulse.largest().time
         short = replace(pulse, duration=turns - 1e-3)
-        time = brentq(lambda t: float(witness(short, t)[1]), short.duration, turns, xtol=1e-12)
+        time = brentq(lambda t: float(reference(short, t)[1]), short.duration, turns, xtol=1e-12)
         summit = short.largest()
         assert summit.time == pytest.approx(time, abs=1e-6)
-        assert summit.value == pytest.approx(float(witness(short, time)[0]), rel=1e-12)
+        assert summit.value == pytest.approx(float(reference(short, time)[0]), rel=1e-12)
         assert short.duration < summit.time < turns
 
     def test_places_over_decades_are_eight_in_each_or_more(self) -> None:

@@ -1,6 +1,6 @@
 """What a linear flow says of itself: how long its panels may be, when a guard can be back, what rounding leaves.
 
-Witness: two uncoupled decays and an oscillator, whose components are read off the matrix.
+Reference: two uncoupled decays and an oscillator, whose components are read off the matrix.
 """
 
 import math

@@ -1,6 +1,6 @@
 """Long panels over fast components: nothing is lost of events, summits and works, however fast they are.
 
-Witnesses are sums of damped sines evaluated as such, and runs that resolve every period.
+Reference methods are sums of damped sines evaluated as such, and runs that resolve every period.
 """
 
 import math

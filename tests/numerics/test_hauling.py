@@ -1,6 +1,6 @@
 """A load on a rope taken in by an uneven drum: against DOP853 on the full equations, strain and length coupled.
 
-Witness: s' = -V/(1 + eps), M y'' = m EA (eps + damping) - M g, eps = m H/s - 1, restarted at every corner of the map.
+Reference: s' = -V/(1 + eps), M y'' = m EA (eps + damping) - M g, eps = m H/s - 1, restarted at every corner of the map.
 """
 
 import math
@@ -17,7 +17,7 @@ SPEED, MASS, FALLS, GRAVITY = 0.4 * math.pi, 5000.0, 4, 9.81
 TENSILE = 1.05e11 * 114e-6
 STATIC = MASS * GRAVITY / FALLS / TENSILE
 ROUNDED = 5e-13
-"""What the witness loses where it takes the strain from two lengths."""
+"""What the reference loses where it takes the strain from two lengths."""
 ROPE = Rope(160.0 / (1 + STATIC), FALLS**2 * TENSILE / MASS, STATIC, 0.0)
 
 
@@ -38,7 +38,7 @@ def random_map(seed: int) -> Map:
     return Map(angles, 0.15 + rng.uniform(0, 0.02, 13))
 
 
-def witness(radius: Map, rope: Rope, per_stretch: int) -> tuple[np.ndarray, np.ndarray]:
+def reference(radius: Map, rope: Rope, per_stretch: int) -> tuple[np.ndarray, np.ndarray]:
     """Times and dynamic forces over E A."""
     length = rope.length * (1 + rope.static_strain)
     state = np.array([rope.length, length / FALLS, SPEED * radius.radii[0] / FALLS])
@@ -70,7 +70,7 @@ class TestMotion:
     def test_of_a_climb_and_its_crossovers(self, length: float, damping: float) -> None:
         rope = replace(ROPE, length=length, damping_ratio=damping)
         motion = haul(layer_map(2), SPEED, rope)
-        times, forces = witness(layer_map(2), rope, 1500)
+        times, forces = reference(layer_map(2), rope, 1500)
         most, least = motion.extremes()
         assert np.all(np.abs(motion.at(times)[1] - forces) <= motion.bar(times) + ROUNDED)
         assert most.error <= (1e-4 + 4 * damping * 8 / length) * most.value
@@ -83,7 +83,7 @@ class TestMotion:
         radius = random_map(seed)
         rope = replace(ROPE, length=20.0, damping_ratio=0.02 * (seed % 3))
         motion = haul(radius, SPEED, rope)
-        times, forces = witness(radius, rope, 60)
+        times, forces = reference(radius, rope, 60)
         most, least = motion.extremes()
         assert np.all(np.abs(motion.at(times)[1] - forces) <= motion.bar(times) + ROUNDED)
         assert max(most.error, least.error) <= 0.05 * most.value

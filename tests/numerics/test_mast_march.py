@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from support.mast_fem import Wall, Witness, run
+from support.mast_fem import Reference, Wall, run
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
@@ -38,9 +38,9 @@ def braked(force: float, speed: float = 1.0, mass: float = 4000.0, **signal: flo
     return Base(mass, speed, grips=(Grip("brake", Signal.rising(force, **signal)),))
 
 
-def witness(**parts: float) -> Witness:
+def reference(**parts: float) -> Reference:
     values = {"base": 4000.0, "length": LENGTH, "bending": BENDING, "column": 1200.0, "load": 1800.0, "count": 4}
-    return Witness(**(values | parts))  # type: ignore[arg-type]
+    return Reference(**(values | parts))  # type: ignore[arg-type]
 
 
 def deflections(course: Course) -> tuple[float, float]:
@@ -77,12 +77,12 @@ class TestBraking:
             (4e4, 0.0, {"pull": -9.81, "turn": 2e7, "shift": 3e6, "root": 500.0}),
         ],
     )
-    def test_against_the_witness(self, force: float, ratio: float, parts: dict[str, float]) -> None:
+    def test_against_the_reference(self, force: float, ratio: float, parts: dict[str, float]) -> None:
         """Braked, at rest, held, and the swing after it: the same elements, none left out."""
         names = {"turn": "root_rotation", "shift": "root_translation", "root": "root_mass"}
         mine = {names.get(name, name): value for name, value in parts.items()}
         course = play(case(braked(force), ratio=ratio, count=2, **mine), 1.1)
-        other = run(witness(held_ratio=ratio, count=2, **parts), 1.0, lambda t: force, 1.1)
+        other = run(reference(held_ratio=ratio, count=2, **parts), 1.0, lambda t: force, 1.1)
         high, low = deflections(course)
         assert (high, low) == pytest.approx((other.high, other.low), rel=2e-5)
         assert course.held_since == pytest.approx(other.stands, rel=1e-6)
@@ -93,14 +93,14 @@ class TestBraking:
             return float(np.clip((t - 0.1) / 0.25, 0, 1)) * 9000.0
 
         course = play(case(braked(9000.0, delay=0.1, rise=0.25), count=2), 1.3)
-        other = run(witness(count=2), 1.0, force, 1.3, breaks=(0.1, 0.35))
+        other = run(reference(count=2), 1.0, force, 1.3, breaks=(0.1, 0.35))
         assert deflections(course) == pytest.approx((other.high, other.low), rel=2e-5)
         assert course.held_since == pytest.approx(other.stands, rel=1e-6)
 
     def test_a_brake_too_weak_to_hold_the_swing(self) -> None:
         """A heavy load on a light base pulls it through the brake again and again."""
         course = play(case(braked(3000.0, mass=300.0), load=3000.0, column=200.0, count=1), 2.0)
-        other = run(witness(base=300.0, load=3000.0, column=200.0, count=1), 1.0, lambda t: 3000.0, 2.0)
+        other = run(reference(base=300.0, load=3000.0, column=200.0, count=1), 1.0, lambda t: 3000.0, 2.0)
         assert sum(event.element == "base" for event in course.record.events) > 2
         assert deflections(course) == pytest.approx((other.high, other.low), rel=2e-5)
         assert course.held_since == pytest.approx(other.stands, rel=1e-6)
@@ -123,7 +123,7 @@ class TestStart:
         """Seen from what moves at full speed a start is a stop."""
         base = Base(4000.0, 0.0, grips=(Grip("drive", Signal.constant(9000.0), 1.0),))
         course = play(case(base, ratio=0.01, count=2), 1.1)
-        other = run(witness(held_ratio=0.01, count=2), 0.0, lambda t: 9000.0, 1.1, wanted=1.0)
+        other = run(reference(held_ratio=0.01, count=2), 0.0, lambda t: 9000.0, 1.1, wanted=1.0)
         high, low = deflections(course)
         assert (high, low) == pytest.approx((other.high, other.low), rel=2e-5)
         assert course.first("base", "at speed") == pytest.approx(other.stands, rel=1e-6)
@@ -179,11 +179,11 @@ class TestObstacle:
             assert abs(course.largest("deflection")[0]) * STIFFNESS <= bound * (1 + 1e-12)
 
     @pytest.mark.parametrize("stiff", [50 * STIFFNESS, None])
-    def test_a_column_with_mass_against_the_witness(self, stiff: float | None) -> None:
+    def test_a_column_with_mass_against_the_reference(self, stiff: float | None) -> None:
         """A point that stops dead is caught again and again: after some blows only damping keeps two runs together."""
         obstacle = Obstacle(LENGTH, math.inf if stiff is None else stiff, 0.05)
         one = case(braked(4000.0, 0.8, 5000.0), load=2100.0, obstacle=obstacle, count=2, ratio=0.03)
-        other = witness(base=5000.0, load=2100.0, count=2, held_ratio=0.03)
+        other = reference(base=5000.0, load=2100.0, count=2, held_ratio=0.03)
         course = play(one, 0.45)
         found = run(other, 0.8, lambda t: 4000.0, 0.45, wall=Wall(stiff, 0.05))
         assert deflections(course) == pytest.approx((found.high, found.low), rel=3e-5)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from support.mast_fem import Witness, clamped_root
+from support.mast_fem import Reference, clamped_root
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, wanted
@@ -67,7 +67,7 @@ class TestFrequencies:
             bending=300.0, mass=2.0, load=3.0, length=2.0, place=1.5, pull=pull, root_rotation=900.0,
             root_translation=5e3, root_mass=0.7,
         )  # fmt: skip
-        other = Witness(base, 2.0, 300.0, 2.0, 3.0, 8, load_node=6, pull=pull, turn=900.0, shift=5e3, root=0.7)
+        other = Reference(base, 2.0, 300.0, 2.0, 3.0, 8, load_node=6, pull=pull, turn=900.0, shift=5e3, root=0.7)
         mast = Mast.of(mine, 8)
         assert mast.frequencies == pytest.approx(other.held(), rel=1e-8)
         assert mast.rolling(base)[0] == pytest.approx(other.rolling(), rel=1e-7)
@@ -93,7 +93,7 @@ class TestFrequencies:
 
     def test_rotary_inertia_of_the_load(self) -> None:
         with_it = Column((Segment(1.0, 1.0, 1.0),), (Lump(1.0, 1.0, 0.3),))
-        other = Witness(1.0, 1.0, 1.0, 1.0, 1.0, 8, inertia=0.3)
+        other = Reference(1.0, 1.0, 1.0, 1.0, 1.0, 8, inertia=0.3)
         assert Mast.of(with_it, 8).frequencies == pytest.approx(other.held(), rel=1e-8)
 
     def test_fourth_order_of_the_elements(self) -> None:

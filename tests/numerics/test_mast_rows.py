@@ -60,7 +60,7 @@ class Told:
     energy: float
 
 
-def witness(state: State, kind: str, x: float, v: float, w: np.ndarray, u: np.ndarray) -> Told:
+def reference(state: State, kind: str, x: float, v: float, w: np.ndarray, u: np.ndarray) -> Told:
     """x, v of the base; w, u of the lumps beside it. `kind` of the obstacle: "", "hard", "damped" or "rigid"."""
     stiff, lumps, others = bar(), slice(0, 2), slice(2, None)
     inner, across = stiff[others, others], stiff[others, lumps]
@@ -172,7 +172,7 @@ def test_every_state_is_newtons_law_for_lumps_and_base(kind: str, contact: str, 
     x, v, w, u = 0.07, 0.3, rng.normal(size=2) * 0.03, rng.normal(size=2)
     back = np.linalg.inv([mast.at(place) for place in LUMPS])
     z = np.concatenate([[x, v], back @ w, back @ u, [1.0, CLOCK]])
-    told = witness(state, kind, x, v, w, u)
+    told = reference(state, kind, x, v, w, u)
 
     motion = system.motion(state)
     rate = motion.rate @ z

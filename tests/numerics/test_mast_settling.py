@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from support.mast_fem import Witness
+from support.mast_fem import Reference
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Signal
@@ -144,11 +144,11 @@ def braked(ratio: float, guide: Guide | None = None) -> Case:
 class TestMast:
     @pytest.mark.parametrize("window", [4e-3, 1e-3, 1e-4])
     def test_after_a_stop_against_dense_looks_of_another_hand(self, window: float) -> None:
-        """The witness goes on from its own elements: exp(A t) of the held mast, looked at 10 000 times."""
+        """The reference goes on from its own elements: exp(A t) of the held mast, looked at 10 000 times."""
         ratio = 0.02
         course = play(braked(ratio), 1.5)
         found = settled(course, 6.0, window)
-        other = Witness(4000.0, 6.0, 600e3 * 72, 1200.0, 1800.0, 8, held_ratio=ratio)
+        other = Reference(4000.0, 6.0, 600e3 * 72, 1200.0, 1800.0, 8, held_ratio=ratio)
         n, inverse = other.size, np.linalg.inv(other.m)
         rate = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ other.k, -inverse @ other.c]])
         drive = np.zeros((2 * n + 1, 2 * n + 1))
@@ -192,7 +192,7 @@ class TestMast:
 
     @pytest.mark.parametrize("window", [3e-3, 2e-3, 1e-3])
     def test_a_run_that_ends_before_it_settles_tells_both_ends(self, window: float) -> None:
-        """After the last touch of the guide; the witness is where a longer run was outside for the last time."""
+        """After the last touch of the guide; the reference is where a longer run was outside for the last time."""
         case = braked(0.02, Guide(6.0, 1e6, 0.004))
         found = settled(play(case, 2.0), 6.0, window)
         assert 0 < found.high - found.low < 1e-5

@@ -86,7 +86,7 @@ def test_extremes_are_those_of_the_equations_of_motion(name: str) -> None:
         only = slice(place, place + 1)
         found = mode_sum(Modes(W, ZETA, GAINS[:, only], WHOLE[only], np.zeros(1)), COURSES[name], 3.0)
         largest, smallest = max(expected[:, place].max(), 0.0), min(expected[:, place].min(), 0.0)
-        sampled = 1e-5  # the witness has samples, not summits
+        sampled = 1e-5  # the reference has samples, not summits
         assert found.largest[0] == pytest.approx(largest, abs=sampled)
         assert found.smallest[0] == pytest.approx(smallest, abs=sampled)
         assert found.largest_low[0] - sampled <= largest <= found.largest_high[0] + 1e-9

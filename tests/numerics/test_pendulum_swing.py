@@ -126,8 +126,8 @@ class TestAgainstCartesianCoordinates:
         assert found.works().residual < 1e-10
 
     def test_a_jib_stopped_by_a_brake_sticks_slips_and_sticks(self) -> None:
-        """The events of the witness are found by bracketing: at rest, loose as soon as the load pulls hard enough, and
-        at rest again."""
+        """The events of the reference are found by bracketing: at rest, loose as soon as the load pulls hard enough,
+        and at rest again."""
         grip, start, inertia = 6e4, 0.22, 5e4
         hanging = Hanging(G, 3e3, inertia, still(7.0), still(14.0), lambda t, s, v: -grip)
 
@@ -487,7 +487,7 @@ class TestHard:
         assert left.bar < 1e-9
 
     def test_ramps_in_step_with_the_swing(self) -> None:
-        """Thirty jolts forth and back; the swing falls out of step as it grows, as the witness says too."""
+        """Thirty jolts forth and back; the swing falls out of step as it grows, as the reference says too."""
         half, a = math.pi * math.sqrt(5 / G), 0.15
         points = [(k * half, a * (-1) ** k) for k in range(30)]
         speed = Pieces.steps((*points, (30 * half, 0.0))).integral()
@@ -537,7 +537,7 @@ class TestBars:
             peak = found.known("along", 12.0)
             errors.append(abs(peak.value - wanted))
             steps.append(found.steps)
-            assert errors[-1] <= peak.bar + 5e-12  # the witness's own error
+            assert errors[-1] <= peak.bar + 5e-12  # the reference's own error
         order = math.log(errors[0] / errors[1]) / math.log(steps[1] / steps[0])
         assert order > 10
         assert errors[-1] < 5e-12

@@ -1,6 +1,7 @@
 """Stretches of a mode with a smooth curve: against tight integrations, in variables of unlike size.
 
-Witness: DOP853 on x'' = -9 x - 0.4 x' - 2 x^3 + 5 u (and a second curve of two arguments), restarted at every stretch.
+Reference: DOP853 on x'' = -9 x - 0.4 x' - 2 x^3 + 5 u (and a second curve of two arguments), restarted at every
+stretch.
 """
 
 import math

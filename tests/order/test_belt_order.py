@@ -133,7 +133,7 @@ def test_the_difference_of_two_grids_says_how_far_the_truth_is(name: str) -> Non
 
 
 def test_finite_elements_come_to_the_same_belt() -> None:
-    """The witness approaches the finest grid as its own mesh is refined."""
+    """The reference approaches the finest grid as its own mesh is refined."""
     scene = FRONTS["start of a relaxed belt"]
     true = scene.run_on(3168)
     rise = rising(2e5, 2.0)

@@ -54,6 +54,17 @@ def rounded(node: Any) -> Any:
     return float(f"{node:.{STORED_DIGITS}g}") if isinstance(node, float) else node
 
 
+def own(document: Any) -> Any:
+    """A document without the effects that its machine does not have: the JSON lists each effect of the kind, so that
+    a further one of another machine would change it. The files of other machines hold those."""
+    for scene in (scene for file in document["files"] for scene in file["scenes"]):
+        absent = {effect["name"] for effect in scene["effects"] if effect.get("absent")}
+        scene["effects"] = [effect for effect in scene["effects"] if effect["name"] not in absent]
+        for solver in scene["solvers"]:
+            solver["effects"] = [name for name in solver["effects"] if name not in absent]
+    return document
+
+
 def assert_close(found: Any, stored: Any, place: str = "") -> None:
     if isinstance(stored, dict):
         assert list(found) == list(stored), place
@@ -73,7 +84,7 @@ def assert_close(found: Any, stored: Any, place: str = "") -> None:
 
 @pytest.mark.parametrize("name", MACHINES)
 def test_json(name: str) -> None:
-    found = rounded(json.loads(render(Format.JSON, [report_of_file(MACHINES[name])])))
+    found = rounded(own(json.loads(render(Format.JSON, [report_of_file(MACHINES[name])]))))
     text = json.dumps(found, indent=2, ensure_ascii=False) + "\n"
     assert_close(found, json.loads(golden(GOLDEN / f"{name}.json", text)))
 

@@ -116,7 +116,7 @@ def test_junit_counts_as_the_summary_does(reports: tuple[FileReport, ...]) -> No
     assert int(root.attrib["failures"]) == outcomes("failure") == totals["fail"]
     errors = totals["undecided"] + totals["not_checked"] + totals["invalid"]
     assert int(root.attrib["errors"]) == outcomes("error") == errors
-    left_out = sum(one.state == "skipped" for report in reports for scene in report.scenes for one in scene.effects)
+    left_out = sum(one.state == "skipped" for report in reports for scene in report.scenes for one in scene.present)
     assert (
         sum(int(suite.attrib["skipped"]) for suite in root)
         == outcomes("skipped")

@@ -353,7 +353,7 @@ def test_the_whole_table_shows_everything(path: str) -> None:
         for check in scene.checks:
             title = f"{check.code} {check.title}" + (f": {check.element}" if check.element else "")
             assert re.search(rf"{re.escape(title)} +{scene.name} ", text)
-        for effect in scene.effects:
+        for effect in scene.present:
             assert re.search(rf"^ {scene.name} +{effect.name} +{effect.state.value}", text, re.MULTILINE)
         for solver in scene.solvers:
             assert re.search(rf"^ {scene.name} +{solver.name} ", text, re.MULTILINE)

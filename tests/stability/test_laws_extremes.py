@@ -98,7 +98,7 @@ def precise(compute: Callable[[], Decimal]) -> float:
         return float(compute())
 
 
-def test_the_decimal_witness_has_its_digits() -> None:
+def test_the_decimal_reference_has_its_digits() -> None:
     assert precise(lambda: Decimal(1).exp()) == math.e
     assert float(PI) == math.pi
     assert getcontext().prec < DIGITS  # only inside `precise`

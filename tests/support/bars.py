@@ -1,7 +1,7 @@
 """Error bars on trial: what runs claim of seeded machines, against what is exact.
 
 A coverage test draws machines by number (`numbers`), has each put on trial (`tried`): what every way to compute it
-claims, what an independent witness or a run far finer and fuller finds, and what the ladder says of a machine whose
+claims, what an independent reference or a run far finer and fuller finds, and what the ladder says of a machine whose
 limit stands within three bars of a claim. Of every way it then asks `misses` (none), `misses` of a third of the bars
 (some), `wide` (the bar over the true error of what checks read,
 at most `WIDEST` in the median) and of all of them `opposites` (none).
@@ -108,7 +108,7 @@ def numbers(always: int, all_of_them: int = MACHINES) -> list[Any]:
 
 
 def known_to(share: float, value: float) -> Estimate:
-    """What a witness finds, good to a share of it; exactly where it is without end."""
+    """What a reference finds, good to a share of it; exactly where it is without end."""
     return Estimate.exact(value) if math.isinf(value) else Estimate.within(value, share * abs(value))
 
 

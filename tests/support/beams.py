@@ -1,4 +1,5 @@
-"""Beams and frames of finite elements with cubic shapes: a witness that shares nothing with the laws of the column."""
+"""Beams and frames of finite elements with cubic shapes: a reference that shares nothing with the laws of the
+column."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Finite elements of a whole belt with drums that slip, brakes and idlers that stick: an independent witness.
+"""Finite elements of a whole belt with drums that slip, brakes and idlers that stick: an independent reference.
 
 Imports nothing from `ptmcalc`. Lumped masses and springs in equal steps of travel time, central differences in time at
 half the limit of stability (so waves disperse a little, which characteristics do not). Coulomb friction is never

@@ -1,4 +1,4 @@
-"""Finite elements of a chain on a sprocket: the independent witness. Imports nothing from `ptmcalc`.
+"""Finite elements of a chain on a sprocket: the independent reference. Imports nothing from `ptmcalc`.
 
 Node 0 is the run-on, the last one the far end; displacements are positive in the direction of travel. The tension at
 the run-on is the force with which the sprocket pulls node 0 ahead, that at the far end is what holds the last one back.

@@ -83,7 +83,7 @@ def number(text: Any) -> float:
     return float(value) * factors.get(unit, 1.0)
 
 
-class Witness:
+class Reference:
     """A conveyor with a constant tension at its run-off and Kelvin-Voigt damping, from its file alone: finite elements
     between two engagements in closed form, which know neither Fourier series nor complex moduli."""
 

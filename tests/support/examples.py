@@ -67,6 +67,8 @@ def _of_scene(kind: AnyKind, scene: Mapping[str, Any], lines: Iterable[str]) -> 
         if line is not None:
             yield one["code"], int(verdict != "pass"), "check", line
     for effect in scene["effects"]:
+        if effect.get("absent"):
+            continue  # no table lists it
         known = effect["criterion"] is not None and effect["criterion"]["value"] is not None
         number = Criterion(**effect["criterion"]) if known else None
         about = f", {words.compared(number)}: {number.meaning}" if number else ""
@@ -90,7 +92,7 @@ def _by_cost(kind: AnyKind, paths: list[str], found: Mapping[str, Any]) -> Itera
         loaded = load_file(ROOT / path, path)
         assert loaded.kind is not None
         assert loaded.spec is not None
-        for solver in (*loaded.kind.solvers, *loaded.kind.witnesses):
+        for solver in (*loaded.kind.solvers, *loaded.kind.reference_methods):
             for scene in loaded.spec.all_scenes if solver.name not in found else ():
                 if solver.usable_for(loaded.spec, scene):
                     yield solver.name, (f"ptmcalc cost {path} --scene {scene.label}", "", "")
@@ -99,7 +101,7 @@ def _by_cost(kind: AnyKind, paths: list[str], found: Mapping[str, Any]) -> Itera
 
 def names(kind: AnyKind) -> list[str]:
     """Everything of a kind that has a name, once."""
-    solvers = [*kind.solvers, *(one for each in kind.manifests for one in each.witnesses)]
+    solvers = [*kind.solvers, *(one for each in kind.manifests for one in each.reference_methods)]
     called = [check.code for check in kind.checks]
     called += [one.name for group in (kind.effects, solvers, kind.loads) for one in group]
     return list(dict.fromkeys(called))
@@ -123,7 +125,7 @@ def from_blocks(kind: AnyKind, wanted: Iterable[str], blocks: Iterable[str]) -> 
                     found[name] = (f"ptmcalc {verb} design.yaml --scene {scene['name']}", line, block)
                     left.discard(name)
         loaded = load_text(block.encode(), "design.yaml")
-        for solver in (*loaded.kind.solvers, *loaded.kind.witnesses) if loaded.kind and loaded.spec else ():
+        for solver in (*loaded.kind.solvers, *loaded.kind.reference_methods) if loaded.kind and loaded.spec else ():
             for scene in loaded.spec.all_scenes if solver.name in left else ():
                 if solver.usable_for(loaded.spec, scene):
                     found[solver.name] = (f"ptmcalc cost design.yaml --scene {scene.label}", "", block)

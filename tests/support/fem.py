@@ -1,4 +1,4 @@
-"""Finite elements of a belt loop: the independent witness. Imports nothing from `ptmcalc`.
+"""Finite elements of a belt loop: the independent reference. Imports nothing from `ptmcalc`.
 
 Linear two-node elements with consistent mass; the loop runs drum - carry strand - tail - return strand and ends
 free (gravity take-up) or at the drum again (rigid take-up). Dynamic quantities only.

@@ -68,7 +68,7 @@ class Geared:
 
 
 def random_geared(rng: np.random.Generator) -> tuple[Geared, dict[str, Any]]:
-    """A hoist as the witness knows it and as a file says it; two of three have play."""
+    """A hoist as the reference knows it and as a file says it; two of three have play."""
     load, falls = float(rng.uniform(2e3, 2e4)), int(rng.choice([2, 4]))
     weight, length, deflection = load * G, float(rng.uniform(6, 20)), float(10 ** rng.uniform(-2.2, -1))
     stiffness, speed = weight / deflection, float(rng.uniform(0.1, 0.5)) * math.sqrt(G * deflection)

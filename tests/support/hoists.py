@@ -1,4 +1,4 @@
-"""Hoists for tests, and what a witness knows of them: pure numbers, no law of ours."""
+"""Hoists for tests, and what a reference knows of them: pure numbers, no law of ours."""
 
 import math
 from typing import Any

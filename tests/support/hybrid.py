@@ -1,4 +1,4 @@
-"""Trains of inertias, integrated by a state machine of its own: a witness for exact propagation with events.
+"""Trains of inertias, integrated by a state machine of its own: a reference for exact propagation with events.
 
 Eighth-order Runge-Kutta steps (scipy's DOP853, relative tolerance 1e-12) run from event to event; an event is
 bracketed on a dense grid inside every step and polished by Newton's method on a step of its own. What sticks and what

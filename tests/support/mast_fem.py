@@ -1,4 +1,4 @@
-"""A mast as an independent witness: own beam elements in absolute coordinates, DOP853 with events, nothing reduced.
+"""A mast as an independent reference: own beam elements in absolute coordinates, DOP853 with events, nothing reduced.
 
 It imports nothing of ptmcalc. The unknowns are the way of the base and the absolute shifts and slopes of the nodes; a
 clamped root moves with the base.
@@ -33,7 +33,7 @@ def beam(length: float, bending: float, density: float, axial: Callable[[float],
 
 
 @dataclass
-class Witness:
+class Reference:
     """A column of even section in equal elements, a load at one node, on a base.
 
     `pull` g above 0 hanging, below 0 standing; `turn`, `shift` stiffness of the root, None where rigid; `guide` that of
@@ -142,7 +142,7 @@ class Found:
 
 
 def run(
-    mast: Witness,
+    mast: Reference,
     speed: float,
     force: Callable[[float], float],
     end: float,
@@ -256,7 +256,7 @@ def run(
     return Found(max(tips), min(tips), stands, largest, np.array(times), np.array(tips), np.array(speeds))
 
 
-def _translation(mast: Witness) -> Array:
+def _translation(mast: Reference) -> Array:
     """All shifts at once: every unknown that is no slope."""
     # a rigid motion costs no strain energy, and only shifts are in it
     found = np.zeros(mast.size)
@@ -281,10 +281,10 @@ def clamped_root(mass_ratio: float, mode: int = 1) -> float:
         low += step
 
 
-def first_at_speed(witness: Witness, force: float, speed: float, rise: float = 0.0) -> float:
+def first_at_speed(reference: Reference, force: float, speed: float, rise: float = 0.0) -> float:
     """When a base that rolls, pushed from rest by a force that comes at once or in a straight line, first has a speed:
     the sum over all modes of the elements, without damping, looked at in steps of the fastest mode that matters."""
-    squares, shapes = eigh(witness.k, witness.m)
+    squares, shapes = eigh(reference.k, reference.m)
     own = shapes[0] ** 2
     w = np.sqrt(np.maximum(squares, 0.0))
     w[0] = 0.0

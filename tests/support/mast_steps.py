@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from support.mast_fem import Array, Witness
+from support.mast_fem import Array, Reference
 
 Phase = tuple[int, int, bool]
 """Which way the base is pushed, 0 where it is held; the side on which the guide is touched; whether the force rises."""
@@ -32,7 +32,7 @@ class Seen:
 class March:
     """A start from rest or a stop from a speed, by a force [N] that comes up in `rise` [s]."""
 
-    mast: Witness
+    mast: Reference
     begins: float
     wanted: float
     size: float
@@ -138,7 +138,7 @@ class March:
         seen.swing = max(seen.swing, *found)
 
 
-def _all_at_once(mast: Witness) -> Array:
+def _all_at_once(mast: Reference) -> Array:
     """The shift of all unknowns as the base moves by 1 and nothing bends."""
     found = np.ones(mast.size)
     found[1:] = np.linalg.solve(mast.k[1:, 1:], -mast.k[1:, 0])

@@ -1,4 +1,4 @@
-"""Stops and starts of a belt whose spans sag: an independent nonlinear witness. Imports nothing from `ptmcalc`.
+"""Stops and starts of a belt whose spans sag: an independent nonlinear reference. Imports nothing from `ptmcalc`.
 
 Lumped masses and springs in equal steps of travel time, central differences. A spring has the strain of the belt and of
 its parabolic spans, S/EA - (w l)^2/(24 S^2), or of the belt alone; everything else is the same in both, so what they

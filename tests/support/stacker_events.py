@@ -1,4 +1,4 @@
-"""A rack stacker for tests of its events: what a witness knows of it, as a design file."""
+"""A rack stacker for tests of its events: what a reference knows of it, as a design file."""
 
 from typing import Any
 

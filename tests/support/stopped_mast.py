@@ -1,4 +1,4 @@
-"""A column on a base that a force brings to rest and then holds, by matrices, modes and roots of SciPy: a witness."""
+"""A column on a base that a force brings to rest and then holds, by matrices, modes and roots of SciPy: a reference."""
 
 from dataclasses import dataclass
 from typing import Any

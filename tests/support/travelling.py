@@ -1,4 +1,4 @@
-"""Travelling cranes for tests: a bridge crane, changed here and there, and what a witness knows of it."""
+"""Travelling cranes for tests: a bridge crane, changed here and there, and what a reference knows of it."""
 
 from typing import Any
 
@@ -73,7 +73,7 @@ def text_report(data: dict[str, Any]) -> Any:
 
 
 def as_file(one: Machine) -> dict[str, Any]:
-    """A witness's machine as a file says it: all driven wheels at the front, nothing that turns but the rotor."""
+    """A reference's machine as a file says it: all driven wheels at the front, nothing that turns but the rotor."""
     rim = 20 / 0.2
     data: dict[str, Any] = {
         "kind": "crane",

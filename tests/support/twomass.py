@@ -1,4 +1,4 @@
-"""Two masses on a one-sided spring, integrated with events: a witness for closed forms of hoists and shafts."""
+"""Two masses on a one-sided spring, integrated with events: a reference for closed forms of hoists and shafts."""
 
 from collections.abc import Callable
 

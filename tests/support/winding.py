@@ -1,4 +1,4 @@
-"""The hoist of the winding paper as a design file, and witnesses of its motion that share nothing with the package."""
+"""The hoist of the winding paper as a design file, and references of its motion that share nothing with the package."""
 
 import itertools
 import math

@@ -298,7 +298,7 @@ def _beyond(at_most: Mapping[str, float], runs: Iterable[Run]) -> Iterator[str]:
 
 
 def beside(kind: AnyKind, spec: MachineSpec, settled: Settled, most: float) -> Iterator[Run]:
-    """Runs that the check did not need: every cheap rung, the next finer one of each that ran, and the witnesses."""
+    """Runs that the check did not need: every cheap rung, the next finer one of each that ran, and the references."""
     scene = settled.plan
     ran = {(run.rung.solver.name, run.rung.carried, run.rung.level) for run in settled.runs}
     finer = {(name, carried, level + 1) for name, carried, level in ran}
@@ -309,10 +309,10 @@ def beside(kind: AnyKind, spec: MachineSpec, settled: Settled, most: float) -> I
         if (key := (rung.solver.name, rung.carried, rung.level)) not in ran
         and rung.seconds <= (3 * most if key in finer else most)
     ]
-    for witness in kind.witnesses:
-        if witness.always <= allowed and witness.usable_for(spec, scene.scene):
-            carried = allowed & witness.represents
-            rungs.append(Rung(witness, carried, 0, witness.cost(spec, scene.scene, carried, 0)))
+    for reference in kind.reference_methods:
+        if reference.always <= allowed and reference.usable_for(spec, scene.scene):
+            carried = allowed & reference.represents
+            rungs.append(Rung(reference, carried, 0, reference.cost(spec, scene.scene, carried, 0)))
             if rungs[-1].seconds > 3 * most:
                 rungs.pop()
     for rung in rungs:

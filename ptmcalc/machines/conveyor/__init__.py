@@ -1,7 +1,7 @@
 """Belt conveyor: running, curves, starting, stopping, traction, take-up and waves of the belt."""
 
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
+from ptmcalc.contract.machine import MachineKind, reference_methods_in, template_in
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.machines.conveyor.assumptions import assumptions
 from ptmcalc.machines.conveyor.curves.topic import CURVES
@@ -30,6 +30,6 @@ KIND = MachineKind(
     assumed=assumptions,
     relations=RELATIONS,
     inspect=inspect,
-    seconding=witnesses_in(__package__),
+    seconding=reference_methods_in(__package__),
     **of_topics(TOPICS),
 )

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
+from ptmcalc.contract.machine import MachineKind, reference_methods_in, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import lift_off_standard
@@ -97,6 +97,6 @@ KIND = MachineKind(
     assumed=assumptions,
     inspect=inspect,
     relations=RELATIONS,
-    seconding=witnesses_in(__package__),
+    seconding=reference_methods_in(__package__),
     **of_topics(TOPICS),
 )

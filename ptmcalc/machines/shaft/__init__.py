@@ -6,7 +6,7 @@ import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
+from ptmcalc.contract.machine import MachineKind, reference_methods_in, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import slider_crank
@@ -96,6 +96,6 @@ KIND = MachineKind(
     assumptions=ASSUMPTIONS,
     relations=RELATIONS,
     inspect=inspect,
-    seconding=witnesses_in(__package__),
+    seconding=reference_methods_in(__package__),
     **of_topics(TOPICS),
 )

@@ -1,4 +1,4 @@
-"""Work done on a shaft in a motion, by a quadrature of its own: the witness of the energy balance.
+"""Work done on a shaft in a motion, by a quadrature of its own: the reference of the energy balance.
 
 Gauss nodes between the collocation nodes; the torque through the gear is taken from the acceleration of the motion, so
 that no inertia of the motor's side is counted with one gear factor here and with another there.

@@ -404,7 +404,7 @@ def energy(march: March, played: Played) -> tuple[float, float]:
     """(what the ledger of a march leaves over [J], the scale of what was turned over [J]).
 
     Works are integrals of forces times speeds over the panels; what is stored is read from the state and, in a rod,
-    from the waves that are on their way, (f^2 + g^2)/Z over a transit. So the rest witnesses propagation and events.
+    from the waves that are on their way, (f^2 + g^2)/Z over a transit. So the rest verifies propagation and events.
     """
     weights = rule.INTEGRAL[-1]
     works = sum((panel.length * (weights @ panel.power) for panel in played.panels), np.zeros(2))

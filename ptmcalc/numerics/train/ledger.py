@@ -18,7 +18,7 @@ class Ledger:
     link, brake or clutch and mesh, `shocks` in impacts, `stored` the change of kinetic and elastic energy.
 
     The works are integrals of torque times speed over Gauss-Lobatto nodes; the stored energy comes from the states at
-    both ends alone. So the residual witnesses the propagation and every event.
+    both ends alone. So the residual verifies the propagation and every event.
     """
 
     put_in: Mapping[str, float]

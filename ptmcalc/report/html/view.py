@@ -103,7 +103,7 @@ def page(report: FileReport, source: Source) -> Entry:
         "governing": _governing(report),
         "checks": checks,
         "tables": list(_tables(report)),
-        "effects": [{"name": one.name, "rows": [_effect(e) for e in one.effects]} for one in scenes if one.effects],
+        "effects": [{"name": one.name, "rows": [_effect(e) for e in one.present]} for one in scenes if one.present],
         "loads": [
             {"name": one.name, "rows": [_load(k, one, load) for load in one.loads]}
             for k, one in enumerate(scenes, 1)
@@ -349,7 +349,7 @@ def _solvers(number: int, scene: SceneReport) -> Entry:
                 "name": one.name,
                 "level": one.fidelity,
                 "decides": "yes" if one.decides else "shown only",
-                "effects": ", ".join(one.effects) if one.decides else "",
+                "effects": ", ".join(scene.simulated(one)) if one.decides else "",
                 "work": one.work,
                 "predicted": show(one.predicted_seconds, TIME, 2) if one.decides else "",
                 "next": words.priced(one.next) if one.next else "",

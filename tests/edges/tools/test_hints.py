@@ -8,7 +8,8 @@ from support.keys import TYPES, blocks, fields_of
 from ptmcalc.base.units import UnitError, is_of, read
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.load import load_text
-from ptmcalc.spec.shape import example_at, is_whole, keys_of, measure_of, usual
+from ptmcalc.spec.rooms import texts_in
+from ptmcalc.spec.shape import USUAL, example_at, is_whole, keys_of, measure_of, usual
 
 of_every_type = pytest.mark.parametrize("kind", TYPES.values(), ids=TYPES)
 
@@ -23,7 +24,7 @@ def test_every_number_has_an_example_of_its_own_that_it_takes(kind: AnyKind) -> 
             continue
         example = example_at(model, key)
         if not (field.examples or usual(model, key)):
-            faulty.append(f"{model.__name__}.{key} has no usual value: add a line to usual.txt of its kind")
+            faulty.append(f"{model.__name__}.{key} has no usual value: add a line to usual.txt of its topic or kind")
         elif measure is None:
             assert int(example) >= 0
         else:
@@ -42,14 +43,14 @@ PACKAGES = {model.__module__.rpartition(".")[0] for kind in TYPES.values() for m
 
 def with_usual_values(package: str) -> str:
     """The package that lists the usual values of another one: itself, or the nearest above it."""
-    here = resources.files(package).joinpath("usual.txt").is_file()
+    here = resources.files(package).joinpath(USUAL).is_file()
     return package if here else with_usual_values(package.rpartition(".")[0])
 
 
 @pytest.mark.parametrize("package", sorted({with_usual_values(one) for one in PACKAGES}))
 def test_no_usual_value_is_of_nothing(package: str) -> None:
-    place = resources.files(package).joinpath("usual.txt")
-    listed = [line.partition(": ")[0] for line in place.read_text("utf-8").splitlines() if not line.startswith("#")]
+    lines = [line for text in texts_in(package, USUAL).values() for line in text.splitlines()]
+    listed = [line.partition(": ")[0] for line in lines if not line.startswith("#")]
     assert len(set(listed)) == len(listed)
     known = {
         f"{one.__name__}.{key}"

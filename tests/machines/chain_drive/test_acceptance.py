@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
-from support.chains import CH_05, FIRST, ROLLER, Witness, chain_of
+from support.chains import CH_05, FIRST, ROLLER, Reference, chain_of
 from support.command import ROOT, environment, ptmcalc, python
 from support.machines import changed, check_of, load_of, report_of, scene_of
 
@@ -26,7 +26,7 @@ def one(report: FileReport, name: str) -> LoadReport:
 
 def at(ratio: float, damping: float, **changes: Any) -> dict[str, Any]:
     """The conveyor of CH-05 with its teeth at so many times the first natural frequency."""
-    speed = ratio * Witness(CH_05).first * 0.32 / (2 * math.pi)
+    speed = ratio * Reference(CH_05).first * 0.32 / (2 * math.pi)
     return changed(CH_05, speed=f"{speed!r} m/s", chain__damping={"ratio": damping}, **changes)
 
 
@@ -131,7 +131,7 @@ def test_ch08_life() -> None:
 def test_the_polygon_tension_is_that_of_finite_elements(ratio: float, damping: float) -> None:
     """To 0.5 % of the largest swing, over r = 0.05 ... 3."""
     data = at(ratio, damping, accuracy="0.5 %")
-    report, force = report_of(data), Witness(data).force
+    report, force = report_of(data), Reference(data).force
     swing = max(force.max(), -force.min())
     assert one(report, "tension_dynamic_polygon").estimate.value == pytest.approx(force.max(), abs=5e-3 * swing)
     assert one(report, "tension_dynamic_polygon_min").estimate.value == pytest.approx(force.min(), abs=5e-3 * swing)

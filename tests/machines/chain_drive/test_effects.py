@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 from support import chain_fem
-from support.chains import CH_05, FIRST, MOTOR, ROLLER, Witness, chain_of
+from support.chains import CH_05, FIRST, MOTOR, ROLLER, Reference, chain_of
 from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
@@ -136,7 +136,7 @@ def test_a_drive_that_gives_way_moves_the_resonance() -> None:
 
 
 def test_the_frequency_with_a_drive_that_gives_way_is_that_of_finite_elements() -> None:
-    chain = Witness(CH_05).chain
+    chain = Reference(CH_05).chain
     mass, stiff = chain_fem.matrices(chain, 200, lumped=False)
     arm = 8 * 0.32 / (2 * math.pi)
     mass[0, 0] += 0.15 * 42.4**2 / arm**2

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 from support import chain_fem
-from support.chains import CH_05, FIRST, MOTOR, ROLLER, Witness, chain_of
+from support.chains import CH_05, FIRST, MOTOR, ROLLER, Reference, chain_of
 from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
@@ -177,7 +177,7 @@ def test_inside_a_safe_window_a_speed_is_safe_and_outside_it_is_not() -> None:
 def test_the_bound_is_above_what_finite_elements_find_and_not_far_in_resonance() -> None:
     for ratio, most in ((0.37, 3.0), (1.0, 1.3), (1.4, 6.0)):
         data = changed(CH_05, speed=f"{ratio * FIRST} m/s")
-        force = Witness(data).force
+        force = Reference(data).force
         bound = value(data, "tension_polygon_bound")
         assert max(force.max(), -force.min()) <= bound <= most * max(force.max(), -force.min())
 

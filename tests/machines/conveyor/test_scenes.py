@@ -111,7 +111,7 @@ CASES: dict[tuple[str, str], tuple[Any, dict[str, Any], Callable[[Rig, float, in
 
 
 @functools.cache
-def witness(rig_name: str, scene_key: str) -> tuple[dict[str, float], dict[str, float]]:
+def reference(rig_name: str, scene_key: str) -> tuple[dict[str, float], dict[str, float]]:
     """Loads of the finite elements on two meshes, over the window of the tool."""
     rig, _, motion = CASES[rig_name, scene_key]
     window = window_of(told(rig_name, scene_key))
@@ -128,7 +128,7 @@ def known(load: LoadReport) -> str:
 def test_every_load_is_that_of_finite_elements(case: tuple[str, str]) -> None:
     """In the interval of the tool, which also has what waves can still do after the window, but for the own error of
     the elements; and the value within 1 % of the largest of its kind."""
-    coarse, fine = witness(*case)
+    coarse, fine = reference(*case)
     seen = 0
     for load in told(*case).loads:
         name = known(load)
@@ -418,7 +418,7 @@ def test_the_elastic_belt_stops_on_another_way_than_the_rigid_one_at_its_head() 
     scene = told("weight", "emergency_stop")
     _, rigid = _rigid_stop(HEAVY)
     head = load_of(scene, "stop_distance").estimate
-    _, fine = witness("weight", "emergency_stop")
+    _, fine = reference("weight", "emergency_stop")
     assert abs(fine["stop_distance"] - rigid) > 2 * abs(fine["stop_distance"] - head.value)
 
 
@@ -674,7 +674,7 @@ def test_start_time_is_when_momentum_is_full(case: tuple[str, str]) -> None:
 def test_an_aborted_start_begins_again_and_hits_harder_than_one_at_once() -> None:
     once = scene_of(report_of(STARTED.data({"type": "start", "profile": RAMP})))
     again = told("hill", "aborted")
-    _, fine = witness("hill", "aborted")
+    _, fine = reference("hill", "aborted")
     plain = load_of(once, "tension_max").estimate
     assert load_of(again, "tension_max").estimate.low > plain.high
     assert fine["tension_max"] > plain.high

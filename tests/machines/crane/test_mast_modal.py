@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 from support.machines import changed
-from support.mast_fem import Wall, Witness, first_at_speed, run
+from support.mast_fem import Reference, Wall, first_at_speed, run
 from support.stacker_masts import OVERHEAD, RACK, random_stacker
 
 from ptmcalc.base.errors import NumericsError
@@ -40,9 +40,9 @@ def inside(result: Result, name: str, value: float) -> None:
     assert estimate.low <= value <= estimate.high, (name, estimate, value)
 
 
-def trolley(**parts: Any) -> Witness:
+def trolley(**parts: Any) -> Reference:
     values: dict[str, Any] = {"base": 4000.0, "length": 6.0, "bending": BENDING, "column": 1200.0, "load": 1800.0}
-    return Witness(**(values | {"count": 3} | parts))
+    return Reference(**(values | {"count": 3} | parts))
 
 
 class TestStops:
@@ -55,7 +55,7 @@ class TestStops:
         assert result.health["energy_residual"] < 1e-12
 
     @pytest.mark.parametrize("decrement", [None, 0.15])
-    def test_a_trolley_against_the_witness(self, decrement: float | None) -> None:
+    def test_a_trolley_against_the_reference(self, decrement: float | None) -> None:
         """Damped as the file says: the lowest mode over a trolley that rolls loses the decrement."""
         data = changed(OVERHEAD, column__log_decrement=decrement) if decrement else OVERHEAD
         ratio = 0.0
@@ -79,7 +79,7 @@ class TestStops:
             scenes=[{"type": "brake", "mechanism": "bridge"}],
         )
         turn = 36 / 6.68471e-6
-        other = Witness(
+        other = Reference(
             3000.0, 6.0, 210e9 * 2e-4, 1200.0, 1800.0, 4, pull=9.81, turn=turn, shift=1 / 1.39265e-6, root=4000.0
         )
         found = run(other, 0.6, lambda t: 6000.0, 2.2)
@@ -92,8 +92,8 @@ class TestStops:
         data = changed(OVERHEAD, settling={"window": "3 mm", "wait": "5 s"}, column__log_decrement=0.3)
         plain = trolley(count=2)
         zeta = 0.3 / math.hypot(2 * math.pi, 0.3)
-        witness = trolley(count=2, held_ratio=zeta * float(plain.held()[0] / plain.rolling()[0]))
-        found = run(witness, 1.0, lambda t: 9000.0, 2.6)
+        reference = trolley(count=2, held_ratio=zeta * float(plain.held()[0] / plain.rolling()[0]))
+        found = run(reference, 1.0, lambda t: 9000.0, 2.6)
         last = found.times[np.abs(found.tips) > 0.003].max() - found.stands
         estimate = solved(data, 1).loads["settling_time"].estimate
         assert estimate.value == pytest.approx(last, abs=1e-3)
@@ -109,8 +109,8 @@ class TestStops:
         )
         plain = trolley(count=2)
         zeta = 0.3 / math.hypot(2 * math.pi, 0.3)
-        witness = trolley(count=2, held_ratio=zeta * float(plain.held()[0] / plain.rolling()[0]))
-        found = run(witness, 1.0, lambda t: 9000.0, 3.2)
+        reference = trolley(count=2, held_ratio=zeta * float(plain.held()[0] / plain.rolling()[0]))
+        found = run(reference, 1.0, lambda t: 9000.0, 3.2)
         lean = 1000 * 9.81 * 0.2 * 36 / 2 / BENDING
         last = [found.times[np.abs(found.tips + side) > 0.003].max() - found.stands for side in (lean, -lean)]
         estimate = solved(data, 1).loads["settling_time"].estimate
@@ -141,7 +141,7 @@ class TestStops:
 
 class TestCollision:
     @pytest.mark.parametrize("contact", ["elastic", "plastic"])
-    def test_against_the_witness(self, contact: str) -> None:
+    def test_against_the_reference(self, contact: str) -> None:
         block = {"contact": contact} | ({"stiffness": "30 MN/m"} if contact == "elastic" else {})
         data = changed(
             OVERHEAD,
@@ -151,9 +151,9 @@ class TestCollision:
         )
         plain = trolley(count=3)
         zeta = 0.4 / math.hypot(2 * math.pi, 0.4)
-        witness = trolley(count=3, held_ratio=zeta * float(plain.held()[0] / plain.rolling()[0]))
+        reference = trolley(count=3, held_ratio=zeta * float(plain.held()[0] / plain.rolling()[0]))
         wall = Wall(30e6 if contact == "elastic" else None)
-        found = run(witness, 1.0, lambda t: 9000.0, 0.3, wall=wall)
+        found = run(reference, 1.0, lambda t: 9000.0, 0.3, wall=wall)
         result = solved(data, 1)
         assert result.loads["collision_deflection"].estimate.value == pytest.approx(-found.low, rel=5e-3)
         assert result.loads["collision_force"].estimate.value == pytest.approx(-found.low * C, rel=5e-3)
@@ -273,13 +273,13 @@ class TestTimes:
         spec = spec_of(data)
         assert spec.all_scenes[0].type == "start"
         column, load = spec.column, spec.load + spec.carriage.mass
-        witness = Witness(
+        reference = Reference(
             float(data["base"]["mass"].split()[0]), column.length,
             model.filled(column.second_moment) * 210e9, column.mass, load, 40, turn=column.root_stiffness,
         )  # fmt: skip
         travel = data["travel"]
         force, rise = (float(travel.get(key, "0 x").split()[0]) for key in ("driving_force", "driving_rise"))
-        exact = first_at_speed(witness, force, float(travel["speed"].split()[0]), rise)
+        exact = first_at_speed(reference, force, float(travel["speed"].split()[0]), rise)
         for level in (0, 1):
             found = solved(data, level).loads["start_time"].estimate
             assert found.low <= exact <= found.high

@@ -19,7 +19,7 @@ WHOLE = changed(
 )
 
 
-def witness(mass: float, radius: float, rope: float, brake: float, delay: float, rise: float) -> Crane:
+def reference(mass: float, radius: float, rope: float, brake: float, delay: float, rise: float) -> Crane:
     rotor = 1.15 * 1.7 * 0.021 * 400**2
     return Crane(
         60826 - mass * radius**2, rotor, mass, radius, rope, 0.7, 2 - 1 / 0.7, 983.8, 2184.4, 3120.6, 37.0 * 400,
@@ -35,7 +35,7 @@ def test_the_rotation_is_that_of_an_integration_of_its_own(
     mass: float, radius: float, rope: float, brake: float, delay: float, rise: float
 ) -> None:
     """Times, angles and swing to 1e-6, with Cartesian coordinates and DOP853 of scipy."""
-    one = witness(mass, radius, rope, brake, delay, rise)
+    one = reference(mass, radius, rope, brake, delay, rise)
     data = changed(
         COURSE,
         load={"mass": f"{mass} kg", "radius": f"{radius} m", "rope_length": f"{rope} m"},

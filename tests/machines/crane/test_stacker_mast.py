@@ -102,7 +102,7 @@ class TestVerdicts:
         assert verdict(guided, "CRN251") == "pass"
 
 
-class TestWitness:
+class TestReference:
     """A trolley that is stopped and held, without damping, by finite elements and modes of another hand."""
 
     MASSES = ((4000.0, 1800.0, 1200.0), (2500.0, 600.0, 1500.0), (6000.0, 3000.0, 900.0))

@@ -35,7 +35,7 @@ def test_a_clamped_gap_over_many_contacts() -> None:
         scenes: [{{type: run, duration: {end} s}}]
         """
     )
-    witness = simulate(
+    reference = simulate(
         Machine(
             inertias=(1.0, 3.0),
             positions=(0.0, 0.0),
@@ -47,9 +47,9 @@ def test_a_clamped_gap_over_many_contacts() -> None:
     )
     contacts = [event for event in found.events if event.element == "gap"]
     assert len(contacts) >= 20
-    peak = max(witness.highest["link", 0], -witness.lowest["link", 0])
+    peak = max(reference.highest["link", 0], -reference.lowest["link", 0])
     assert value(found, "torque_peak[gap]") == pytest.approx(peak, rel=1e-9)
-    assert value(found, "speed_end[b]") == pytest.approx(witness.speeds[1], rel=1e-8)
+    assert value(found, "speed_end[b]") == pytest.approx(reference.speeds[1], rel=1e-8)
     assert value(found, "energy_residual") < 1e-9
 
 

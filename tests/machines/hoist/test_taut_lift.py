@@ -1,5 +1,5 @@
 """A lift with taut ropes by a gear with play, from a motor that runs free: drum and motor turn alike, the flank touches
-and closes as the rope slows the drum down. Witness: DOP853 on both, the load on the ground."""
+and closes as the rope slows the drum down. Reference: DOP853 on both, the load on the ground."""
 
 import math
 from typing import Any

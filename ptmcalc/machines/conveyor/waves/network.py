@@ -210,7 +210,7 @@ def valid_running(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     return _simulable(spec, scene)
 
 
-def valid_witness(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
+def valid_reference(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """The same for a plain start whatever its speed: no plan offers the cells there, but they know what it comes to.
 
         1 for anything but a plain start;   else as `valid`
@@ -291,5 +291,5 @@ CELLS: Solver[Conveyor, ConveyorScene] = replace(
     NETWORK,
     name="cells",
     title="method of characteristics with lumped idlers, plain start (reference)",
-    valid=valid_witness,
+    valid=valid_reference,
 )

@@ -1,7 +1,7 @@
 """Slewing crane: a load on a jib that turns about a vertical axis."""
 
 from ptmcalc.contract.example import symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
+from ptmcalc.contract.machine import MachineKind, reference_methods_in, template_in
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.machines.crane.slewing.assumptions import assumptions
 from ptmcalc.machines.crane.slewing.drive.topic import DRIVE
@@ -26,6 +26,6 @@ SLEWING = MachineKind(
     assumed=assumptions,
     inspect=inspect,
     relations=RELATIONS,
-    seconding=witnesses_in(__package__),
+    seconding=reference_methods_in(__package__),
     **of_topics(TOPICS),
 )

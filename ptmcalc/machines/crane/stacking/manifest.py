@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect
 from ptmcalc.contract.example import symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
+from ptmcalc.contract.machine import MachineKind, reference_methods_in, template_in
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.machines.crane.stacking.assumptions import USES, assumptions
@@ -55,5 +55,5 @@ def stacker(
         relations=tuple(relation for relation in relations_of(word) if relation.scenes & scenes),
         parts=offered["parts"],
         tables=tables,
-        seconding=lambda: of_its_scenes(witnesses_in(__package__)()),
+        seconding=lambda: of_its_scenes(reference_methods_in(__package__)()),
     )

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.example import symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
+from ptmcalc.contract.machine import MachineKind, reference_methods_in, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import skew
@@ -79,7 +79,7 @@ TRAVELLING = MachineKind(
     spec=Travelling,
     figures=FIGURES,
     starting=template_in(__package__),
-    seconding=witnesses_in(__package__),
+    seconding=reference_methods_in(__package__),
     symbols=symbols_in(__package__),
     assumed=assumptions,
     uses=USES,

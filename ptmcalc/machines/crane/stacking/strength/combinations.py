@@ -204,7 +204,7 @@ def _size(load: LoadReport) -> float:
 def _ledger(scene: SceneReport, solver: str) -> Iterator[str]:
     """The effects of a scene's ledger that its run carried, or whose bound is in its bar; not those it skips."""
     carried = next((one.effects for one in scene.solvers if one.name == solver and one.decides), ())
-    for effect in scene.effects:
+    for effect in scene.present:
         if effect.name in carried:
             yield effect.name
         elif effect.state is not EffectState.SKIPPED:

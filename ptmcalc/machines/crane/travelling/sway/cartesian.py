@@ -1,4 +1,4 @@
-"""A start or stop with the load in Cartesian coordinates, by Runge-Kutta steps from event to event: for the witness.
+"""A start or stop with the load in Cartesian coordinates, by Runge-Kutta steps from event to event: for the reference.
 
     d'' = g + f/M - x'' e + lambda d,   lambda = (L'^2 - |d'|^2 - d.(g + f/M - x'' e))/L^2
     (m + k m_r) x'' = k F - W + (-M lambda d).e

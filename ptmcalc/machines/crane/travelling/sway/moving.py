@@ -1,4 +1,4 @@
-"""What moves a travelling crane in a start or a stop, as a witness of small or of finite angles reads it."""
+"""What moves a travelling crane in a start or a stop, as a reference of small or of finite angles reads it."""
 
 import math
 from dataclasses import dataclass
