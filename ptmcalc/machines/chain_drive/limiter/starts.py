@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
@@ -22,10 +23,14 @@ from ptmcalc.machines.chain_drive.limiter.trips import fitted, tripped
 from ptmcalc.machines.chain_drive.model import mean_arm
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.speed_change.effects import weight_bound
-from ptmcalc.machines.chain_drive.speed_change.teeth import start_passing
+from ptmcalc.machines.chain_drive.speed_change.motor_teeth import curve_teeth_simulated
+from ptmcalc.machines.chain_drive.speed_change.teeth import curve_teeth, start_passing
 from ptmcalc.machines.chain_drive.speed_change.tooth_passes import START_TEETH
 from ptmcalc.machines.chain_drive.starting.bounds import enclosed
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, sprocket_mass, start_case
+from ptmcalc.machines.chain_drive.starting.motor_curve_waves import Judged, judged
+from ptmcalc.machines.chain_drive.starting.motor_curve_waves import valid as curve_valid
+from ptmcalc.machines.chain_drive.starting.motor_force import stands_still, start_force
 from ptmcalc.machines.chain_drive.starting.waves import felt, later, valid, waves
 from ptmcalc.numerics.mode_sum import mode_sum
 
@@ -48,6 +53,10 @@ def start_torque(spec: ChainDrive, scene: Start, level: int) -> tuple[Estimate, 
     rigid = case.line.static_resistance + case.acceleration * (case.line.moving_mass + own)
     if spec.effects.get("chain_elasticity") == "off" and not case.follows_curve:
         return of_pull(spec, Estimate.exact(rigid), leaving), None
+    if case.follows_curve and stands_still(spec, case):
+        return of_pull(spec, Estimate.exact(start_force(spec, case).standing), leaving), None
+    if case.follows_curve and not curve_valid(spec, scene).exceeded:
+        return _on_curve(spec, scene, case, level)
     if valid(spec, scene).exceeded:
         return Estimate.unknown(arm * rigid), None
     share = 0.0 if case.imposed_speed else own / case.masses.drive_mass
@@ -60,6 +69,31 @@ def start_torque(spec: ChainDrive, scene: Start, level: int) -> tuple[Estimate, 
     most, least = (one.widened(Interval(-beside, beside)) for one in (most, least))
     torque = larger(of_pull(spec, most, leaving), of_pull(spec, negative(least), leaving))
     return torque, case.held + float(peaks.largest_time[0])
+
+
+def _on_curve(spec: ChainDrive, scene: Start, case: StartCase, level: int) -> tuple[Estimate, float | None]:
+    """The same of a start that follows the curve of its motors: the force behind motors and gear."""
+    try:
+        found = judged(spec, scene, level)
+    except NumericsError:
+        return Estimate.unknown(mean_arm(spec) * case.available), None
+    beside, leaving = _beside_curve(spec, scene, case, found, level)
+    most, least = (one.widened(Interval(-beside, beside)) for one in (found.most, found.least))
+    return larger(of_pull(spec, most, leaving), of_pull(spec, negative(least), leaving)), found.times[1]
+
+
+def _beside_curve(spec: ChainDrive, scene: Start, case: StartCase, found: Judged, level: int) -> tuple[float, Interval]:
+    """`_beside` of a start that follows the curve of its motors; its teeth are bounded, at finer levels simulated."""
+    if scene.chain == "relaxed" and spec.effects.get("chain_sticking") != "off":
+        return math.inf, Interval(0.0, math.inf)
+    teeth = 0.0
+    if spec.effects.get("tooth_passing") != "off":
+        teeth = max(curve_teeth_simulated(spec, scene, 0)[:2]) if level > 0 else curve_teeth(spec, scene)
+    beside = teeth + _of_weight(spec, scene, found.dynamic)
+    if not found.smallest.low >= beside:
+        return math.inf, Interval(0.0, math.inf)
+    bound = (2 if _moves_off(case) else 1) * beside
+    return bound, Interval(0.0, found.leaving + bound)
 
 
 def _beside(spec: ChainDrive, scene: Start, case: StartCase, most: Estimate) -> tuple[float, Interval]:
@@ -148,6 +182,8 @@ def _of_sprocket(case: StartCase, own: float) -> tuple[float, Interval]:
 def best_torque(spec: ChainDrive, scene: Start, decided: Callable[[Estimate], bool]) -> Estimate:
     """The torque as close as it takes to decide something: by modes, then with every tooth [N*m]."""
     best = start_torque(spec, scene, 0)[0]
+    if not decided(best) and start_case(spec, scene).follows_curve:
+        return start_torque(spec, scene, 1)[0]
     if decided(best) or toothed(spec, scene).exceeded:
         return best
     one = toothed_torque(spec, scene, 0)[0]
@@ -161,10 +197,11 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
 
     F is the force of the drive at the sprocket pitch circle, m_d the reduced mass of drive and sprocket, and m_s the
     part of the sprocket. The tensions on both sides of the sprocket are sums over modes, as in `chain_start_waves`.
-    The value has the mean arm z p/(2 pi); the error bar contains every arm over the passage of a tooth.
+    The value has the mean arm z p/(2 pi); the error bar contains every arm over the passage of a tooth. In a start on
+    a motor curve F_l is that of `chain_motor_waves`.
 
-    **Range** a taut chain that slides forward. Starts along a motor curve, with a driven tail, of a relaxed chain or of
-    one that may go slack have no bound.
+    **Range** a taut chain that slides forward. Starts with a driven tail, of a relaxed chain or of one that may go
+    slack have no bound.
     **Error** bounded: samples, neglected modes, passing teeth, inertia of the take-up weight, arms.
     **Source** equilibrium of the sprocket; sums over modes, derived in `numerics.mode_sum` and `chain_resonance`.
     """

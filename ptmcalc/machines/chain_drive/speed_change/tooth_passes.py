@@ -40,7 +40,7 @@ from ptmcalc.numerics import tooth_passes
 _LEADS = 2
 """Positions of the first joint within the pitch at the coarsest level; twice as many at each finer one. A numerical
 choice: the difference from half as many is in the error bar. More narrow it and take longer."""
-_MODES = 6
+MODES_OF_TEETH = 6
 """Modes that the teeth excite one by one at the coarsest level; twice as many at each finer one. A numerical choice:
 the rest is bounded and added. More narrow the error bar and take longer."""
 _SECONDS = 4e-6
@@ -95,6 +95,29 @@ class _Found:
     smallest_lead: FloatArray
 
 
+def teeth_alone(
+    spec: ChainDrive, passings: tuple[Passing, ...], case: StartCase, level: int
+) -> tuple[float, float, int]:
+    """Most that the teeth add to the entering tension, and most that they take from the tension of any section, each
+    the sum over several motions of a drive [N]; and the work.
+
+    See `teeth.curve_teeth`.
+    """
+    most, least, work = 0.0, 0.0, 0
+    for one in passings:
+        sections = sections_of(case, len(one.frequencies))
+        found = _passed(spec, one, sections, level)
+        between = 0.0
+        for strand, x in sections:
+            shapes = np.abs(one.shapes(strand, x)).max(axis=1) / one.masses.belt_mass
+            bend = (one.frequencies * travel_time(case, strand) * float(x[1])) ** 2 / 8
+            between = max(between, float(np.sum(bend * shapes * found.followed)))
+        most += found.largest.high
+        least += float((found.smallest_bar - found.smallest).max()) + between
+        work += found.work
+    return most, least, work
+
+
 def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) -> _Found:
     """Every mode through the passes of the teeth at both ends, for several places of the first joint.
 
@@ -141,7 +164,9 @@ def _ridden(
     gains = np.concatenate([passing.shapes(strand, x) for strand, x in (_RUN_ON, *sections)], axis=1)
     gains /= passing.masses.belt_mass
     behind = np.concatenate([loop_bounds.quasi_static(passing.masses, *one) for one in (_RUN_ON, *sections)])
-    behind -= begun @ gains  # what the modes left out take of the mean acceleration, followed at once
+    behind = (
+        behind * passing.started - begun @ gains
+    )  # what the modes left out take of the mean acceleration, followed at once
     fixed, stiffness = passing.masses.fixed_length, share * passing.stiffness
     leads = (lead, (lead + (far_place(spec) or 0.0)) % 1.0) if fixed else (lead,)
 
@@ -209,7 +234,7 @@ def through(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], level:
     **Error** bounded: quadrature, neglected modes, and the initial positions of the link joints.
     **Source** derived in `numerics.run_through`; kinematics of the polygon.
     """
-    found = _passed(spec, range_passing(spec, scene, _MODES << level), (), level)
+    found = _passed(spec, range_passing(spec, scene, MODES_OF_TEETH << level), (), level)
     loads = range_loads(spec, scene, found.largest)
     return Result(
         {name: Found(load, {"time": found.time}) for name, load in loads.items()},
@@ -231,7 +256,7 @@ def started(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int)
     **Error** bounded as in `through`.
     **Source** derived in `numerics.run_through`.
     """
-    case, passing = start_case(spec, scene), start_passing(spec, scene, _MODES << level)
+    case, passing = start_case(spec, scene), start_passing(spec, scene, MODES_OF_TEETH << level)
     if case.acceleration <= 0:
         raise NumericsError("NUM102", "the drive does not move the chain: there is no motion to compute")
     sections = sections_of(case, len(passing.frequencies))
@@ -288,7 +313,8 @@ def _lowest(
     return Estimate(value, float(lows.min()), max(high, value), numerical=bar), at, which
 
 
-def _cost(spec: ChainDrive, passing: Passing, sections: int, level: int) -> float:
+def cost_of_teeth(spec: ChainDrive, passing: Passing, sections: int, level: int) -> float:
+    """Predicted seconds of all passes [s]."""
     if not 0 < passing.window < math.inf:
         return 0.0
     fastest = float(np.max(passing.frequencies * np.maximum(1.0, 2 * passing.damping_ratios)))
@@ -343,7 +369,9 @@ RANGE: Solver[ChainDrive, SpeedRange] = Solver(
     represents=frozenset({"tooth_passing"}),
     gives=frozenset({"tension_speed_range", "safety_start"}),
     run=through,
-    cost=lambda spec, scene, carried, level: _cost(spec, range_passing(spec, scene, _MODES << level), 1, level),
+    cost=lambda spec, scene, carried, level: cost_of_teeth(
+        spec, range_passing(spec, scene, MODES_OF_TEETH << level), 1, level
+    ),
     source="derived in ptmcalc.numerics.run_through",
     valid=range_valid,
     always=frozenset({"tooth_passing"}),
@@ -357,7 +385,9 @@ START_TEETH: Solver[ChainDrive, Start] = Solver(
     represents=frozenset({"chain_elasticity", "higher_modes", "tooth_passing"}),
     gives=frozenset(TENSIONS),
     run=started,
-    cost=lambda spec, scene, carried, level: _cost(spec, start_passing(spec, scene, _MODES << level), 80, level),
+    cost=lambda spec, scene, carried, level: cost_of_teeth(
+        spec, start_passing(spec, scene, MODES_OF_TEETH << level), 80, level
+    ),
     source="derived in ptmcalc.numerics.run_through",
     valid=start_valid,
     always=frozenset({"chain_elasticity", "higher_modes", "tooth_passing"}),
