@@ -81,8 +81,8 @@ class Places:
 @dataclass(slots=True)
 class Followed:
     """A march: largest and smallest value of each place with times and bounds, shape (p,) each, largest amplitude of
-    each mode, what may come after its end, the end, steps, and whether the motion is steady there; nodes of its force;
-    samples."""
+    each mode, bounds of the places between the marks, shape (marks + 1, p), what may come after its end, the end,
+    steps, and whether the motion is steady there; nodes of its force; samples."""
 
     largest: FloatArray
     largest_time: FloatArray
@@ -93,6 +93,8 @@ class Followed:
     smallest_low: FloatArray
     smallest_high: FloatArray
     swings: FloatArray
+    parts_high: FloatArray
+    parts_low: FloatArray
     after: FloatArray = field(default_factory=lambda: np.full(1, math.inf))
     end: float = 0.0
     steps: int = 0
@@ -103,18 +105,18 @@ class Followed:
     samples: list[FloatArray] = field(default_factory=list)
 
     @classmethod
-    def of(cls, places: int, modes: int) -> "Followed":
+    def of(cls, places: int, modes: int, parts: int) -> "Followed":
         """A march that has not begun."""
         a, b, c, d, e, f, g, h = (np.zeros(places) for _ in range(8))
-        return cls(a, b, c, d, e, f, g, h, np.zeros(modes))
+        return cls(a, b, c, d, e, f, g, h, np.zeros(modes), np.zeros((parts, places)), np.zeros((parts, places)))
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """How a march is made: its beginning [s], longest step [s], the same relative to the time constant of drive mass and
-    steepest torque of a stage [1], tolerance of what is left at the end in the unit of the places, number of modes
+    """How a march is made: its beginning [s], longest step [s], the same relative to the time constant of drive mass
+    and steepest torque of a stage [1], tolerance of what is left at the end in the unit of the places, number of modes
     whose speed the drive follows, factor of the time until the motion is steady, last time at which it ends [s],
-    whether all samples of the first place are kept, and most steps."""
+    whether all samples of the first place are kept, most steps, and times between which extremes are kept apart [s]."""
 
     begin: float
     step: float
@@ -125,6 +127,7 @@ class Plan:
     latest: float = math.inf
     keep: bool = False
     most: int = MOST_STEPS
+    marks: tuple[float, ...] = ()
 
     def coarser(self, factor: float) -> "Plan":
         """The same with steps so many times as long."""

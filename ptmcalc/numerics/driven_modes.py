@@ -52,6 +52,8 @@ _LOOKS = 65
 """Speeds at which the torque is verified to fall with the speed."""
 _MISSED = 0.1
 """What may lie between two samples relative to what may be left at the end [1]; it is in the bounds."""
+_ROUNDED = 1e-6
+"""Share of a step by which times differ that are one [1]: rounding."""
 _CRITICAL = 0.9
 """Damping ratio above which the envelope of a critically damped mode is used [1]."""
 
@@ -100,7 +102,7 @@ class _March:
         self.time, self.rigid, self.stage = plan.begin, 0.0, 0
         self.steps: dict[float, _Step] = {}
         count = len(places.whole)
-        self.found = Followed.of(count, len(self.w))
+        self.found = Followed.of(count, len(self.w), len(plan.marks) + 1)
         self.total = self.decaying = self.slope = 0.0
         self.fastest = float(self.w[-1]) if len(self.w) else math.inf
         zeta = float(self.zeta[-1]) if len(self.w) else 0.0
@@ -113,7 +115,9 @@ class _March:
         found, until = self.found, math.inf
         while True:
             step = self._longest()
-            length = min(self._next() - self.time, _CHUNK * step, max(until - self.time, 0.0))
+            marks = [mark for mark in self.plan.marks if mark > self.time]
+            length = min([self._next() - self.time, _CHUNK * step, max(until - self.time, 0.0)])
+            length = min([length, *(mark - self.time for mark in marks)])
             count = max(math.ceil(length / step * (1 - 1e-12)), 1)
             found.steps += self._chunk(count, length / count)
             if found.steps > self.plan.most:
@@ -323,8 +327,12 @@ class _March:
         np.maximum(found.largest_low, (tops - neglected).max(axis=0), out=found.largest_low)
         np.minimum(found.smallest_high, (lows + neglected).min(axis=0), out=found.smallest_high)
         missed += neglected
-        np.maximum(found.largest_high, (tops + missed).max(axis=0), out=found.largest_high)
-        np.minimum(found.smallest_low, (lows - missed).min(axis=0), out=found.smallest_low)
+        high, low = (tops + missed).max(axis=0), (lows - missed).min(axis=0)
+        np.maximum(found.largest_high, high, out=found.largest_high)
+        np.minimum(found.smallest_low, low, out=found.smallest_low)
+        part = sum(mark <= begin + _ROUNDED * length for mark in self.plan.marks)
+        np.maximum(found.parts_high[part], high, out=found.parts_high[part])
+        np.minimum(found.parts_low[part], low, out=found.parts_low[part])
 
     def _samples(self, length: float, bend: float) -> int:
         """Samples of a step: half a unit of angle of the fastest mode apart, or so close that nothing is missed."""

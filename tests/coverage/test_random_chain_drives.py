@@ -11,16 +11,42 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.bars import MACHINES
+from support.bars import (
+    MACHINES,
+    WIDEST,
+    Limit,
+    Trial,
+    claim_of,
+    misses,
+    near,
+    numbers,
+    opposites,
+    tried,
+    verdicts,
+    wide,
+)
 from support.chain_fem import Strand
-from support.chain_motor_fem import SYNCHRONOUS, Gear, Plant, Seen, imposed, start
+from support.chain_motor_fem import SYNCHRONOUS, Gear, Plant, Seen, Teeth, imposed, start
+from support.chain_starts import KIND, built
 from support.machines import load_of, report_of, scene_of
+
+from ptmcalc.base.diagnostic import Verdict
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.engine.plan import plan_scene
+from ptmcalc.machines.chain_drive.speed_change.motor_teeth import MOTOR_TEETH
+from ptmcalc.machines.chain_drive.starting.motor_curve_waves import MOTOR_WAVES
+from ptmcalc.machines.chain_drive.strength import safety
+
+ON_TRIAL = {"chain_drive": ("chain_motor_waves", "chain_motor_teeth")}
 
 SEED, ALWAYS = 2911, 8
 KINDS = ("direct", "star_delta", "soft", "coupling", "kloss", "linear", "profile")
 MESHES = ((16, 8e-4), (32, 4e-4)), ((64, 2e-4), (96, 1e-4))
 LATER, G = 1.5, 9.81
 SLACK_SAG = 0.02
+LIMIT = Limit("safety_start", ("checks", "safety_start"), least=1e-6)
+WAYS = {"waves": MOTOR_WAVES, "teeth": MOTOR_TEETH}
+ON_TRIAL_LOADS = ("tension_dynamic_start", "tension_start", "safety_start", "tension_min")
 
 
 @dataclass(frozen=True)
@@ -199,7 +225,7 @@ def _motor(gear: Gear, rotor: float) -> dict[str, Any]:
     }
 
 
-def moved(machine: Machine, window: float, pieces: int, dt: float) -> Seen:
+def moved(machine: Machine, window: float, pieces: int, dt: float, teeth: Teeth | None = None) -> Seen:
     """The start in finite elements."""
     if machine.gear.kind == "profile":
         time, speed = machine.gear.time, machine.speed
@@ -209,7 +235,7 @@ def moved(machine: Machine, window: float, pieces: int, dt: float) -> Seen:
 
         return imposed(machine.plant, acceleration, window, pieces, dt)
     switch = machine.gear.switch * SYNCHRONOUS / machine.plant.turns if machine.gear.kind == "star_delta" else 0.0
-    return start(machine.plant, machine.pull, switch, window, pieces, dt)
+    return start(machine.plant, machine.pull, switch, window, pieces, dt, teeth)
 
 
 def extremes(machine: Machine, seen: Seen) -> dict[str, float]:
@@ -257,3 +283,79 @@ def test_bars_hold_the_finite_elements(index: int) -> None:
 def test_of_two_hundred_machines_too(part: int) -> None:
     each = MACHINES // 20
     assert [one for index in range(each * part, each * (part + 1)) for one in outside(index, bounded=False)] == []
+
+
+# -- solvers on trial -----------------------------------------------------------------------------------------------
+
+
+def truth_of(machine: Machine, spec: Any, window: float, teeth: bool) -> dict[str, Estimate]:
+    """Loads by finite elements with what two meshes say of them; with teeth the worst of four first joints."""
+    pitch, count = float(machine.data["chain"]["pitch"].split()[0]), int(machine.data["sprocket"]["teeth"])
+    leads = [Teeth(pitch, count, k / 4) for k in range(4)] if teeth else [None]
+    found = []
+    for mesh in MESHES[0]:
+        ridden = [extremes(machine, moved(machine, LATER * window, *mesh, one)) for one in leads]
+        worst = {name: max(one[name] for one in ridden) for name in ("tension_dynamic_start", "tension_start")}
+        found.append(worst | {"tension_min": min(one["tension_min"] for one in ridden)})
+    coarse, fine = found
+    off = {name: 1.5 * abs(fine[name] - coarse[name]) + 1e-3 * machine.plant.static[0] for name in fine}
+    truth = {name: Estimate.within(value, off[name]) for name, value in fine.items()}
+    ends = [
+        safety(spec, fine["tension_start"] + sign * off["tension_start"] + _centrifugal(machine)) for sign in (1, -1)
+    ]
+    return truth | {"safety_start": Estimate(sum(ends) / 2, ends[0], ends[1])}
+
+
+def _centrifugal(machine: Machine) -> float:
+    return float(machine.data["chain"]["mass"].split()[0]) * machine.speed**2
+
+
+def trial(number: int, way: str) -> Trial:
+    """A machine whose motors follow a curve and whose chain stays taut; with teeth a conveyor with a weight: the
+    elements have teeth at the entering strand only."""
+    teeth, tries = way == "teeth", 0
+    while True:
+        machine = random_machine(1000 * (number + 1) + tries)
+        tries += 1
+        if machine.gear.kind == "profile" or (teeth and (machine.plant.fixed or len(machine.plant.strands) == 1)):
+            continue
+        spec = built(machine.data | {"torque_limiter": None, "effects": {} if teeth else {"tooth_passing": "off"}})
+        (scene,) = spec.all_scenes
+        if not MOTOR_WAVES.usable_for(spec, scene):
+            continue
+        plan, solver = plan_scene(KIND, spec, scene), WAYS[way]
+        claims = claim_of(plan, spec, solver, solver.always, 0)
+        if claims["tension_min"].low > 0 and claims["tension_start"].bounded:
+            break
+    window = solver.run(spec, scene, solver.always, 0).window
+    assert window is not None
+    claimed = {way: {name: claims[name] for name in ON_TRIAL_LOADS}}
+    rng = np.random.default_rng((SEED, 7, number))
+    return tried(number, rng, KIND, spec, scene, claimed, truth_of(machine, spec, window[1], teeth), [LIMIT])
+
+
+@pytest.fixture(scope="module", params=numbers(4, MACHINES // 5))
+def waves(request: pytest.FixtureRequest) -> list[Trial]:
+    return [trial(number, "waves") for number in request.param]
+
+
+@pytest.fixture(scope="module", params=numbers(3, MACHINES // 5))
+def toothed(request: pytest.FixtureRequest) -> list[Trial]:
+    return [trial(number, "teeth") for number in request.param]
+
+
+def test_the_bar_of_a_start_on_a_curve_holds(waves: list[Trial]) -> None:
+    assert misses(waves, "waves") == []
+    assert wide(waves, "waves") <= WIDEST
+    assert opposites(waves) == []
+
+
+def test_the_bar_of_a_start_on_a_curve_with_teeth_holds(toothed: list[Trial]) -> None:
+    assert misses(toothed, "teeth") == []
+    assert wide(toothed, "teeth") <= WIDEST
+    assert opposites(toothed) == []
+
+
+def test_machines_are_near_their_limits(waves: list[Trial], toothed: list[Trial]) -> None:
+    assert near([*waves, *toothed]) >= 0.4
+    assert set(verdicts([*waves, *toothed], "CHN122")) >= {Verdict.PASS, Verdict.FAIL}

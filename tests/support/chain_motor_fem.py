@@ -118,31 +118,50 @@ class Seen:
     speed: float
 
 
+@dataclass(frozen=True)
+class Teeth:
+    """Pitch and teeth of the driving sprocket, and how far the first joint is behind its engagement, in pitches."""
+
+    pitch: float
+    count: int
+    lead: float
+
+    def ahead(self, travel: float) -> tuple[float, float]:
+        """How far the entering chain is ahead of the mean motion, and its slope over the travel."""
+        half = math.pi / self.count
+        radius = self.pitch / (2 * math.sin(half))
+        place = (travel / self.pitch + self.lead) % 1.0 - 0.5
+        angle = 2 * half * place
+        return radius * math.sin(angle) - self.pitch * place, radius * math.cos(angle) * 2 * half / self.pitch - 1
+
+
 def _maps(
     plant: Plant, pieces: int, losses: float, dt: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     mass, stiff, rows = plant.system(pieces, losses)
     n = len(mass)
-    rate = np.zeros((2 * n + 2, 2 * n + 2))
+    rate = np.zeros((2 * n + 4, 2 * n + 4))
     rate[:n, n : 2 * n] = np.eye(n)
     rate[n : 2 * n, :n] = -stiff / mass[:, None]
     rate[n : 2 * n, n : 2 * n] = -plant.retardation * stiff / mass[:, None]
     rate[n, 2 * n] = 1 / mass[0]
-    rate[2 * n, 2 * n + 1] = 1.0
+    rate[n : 2 * n, 2 * n + 2] = -stiff[:, 0] / mass
+    rate[2 * n, 2 * n + 1] = rate[2 * n + 2, 2 * n + 3] = 1.0
     step = expm(rate * dt)
-    free, held, risen = step[: 2 * n, : 2 * n], step[: 2 * n, 2 * n], step[: 2 * n, 2 * n + 1] / dt
-    return free, held - risen, risen, mass, stiff[0], rows
+    held, risen = step[: 2 * n, [2 * n, 2 * n + 2]], step[: 2 * n, [2 * n + 1, 2 * n + 3]] / dt
+    old, new = held - risen, risen
+    return step[: 2 * n, : 2 * n], old[:, 0], new[:, 0], mass, stiff[0], rows, old[:, 1], new[:, 1]
 
 
 def start(plant: Plant, pull: Callable[[float, float, bool], float], switch: float, window: float, pieces: int,
-          dt: float) -> Seen:  # fmt: skip
+          dt: float, teeth: Teeth | None = None) -> Seen:  # fmt: skip
     """A start; `pull` is the torque of all motors at the chain [N] by time, speed, and whether the starter has switched
     over, which it does at the speed `switch`. Held until the motors pull more than the chain resists."""
-    eta, w = plant.efficiency, plant.resistance
+    eta, w, lag = plant.efficiency, plant.resistance, plant.retardation
     made = {losses: _maps(plant, pieces, losses, dt) for losses in (eta, 1 / eta)}
     n = len(made[eta][3])
     statics = plant.statics(pieces)
-    state, time, delta = np.zeros(2 * n), 0.0, switch <= 0
+    state, time, delta, ahead = np.zeros(2 * n), 0.0, switch <= 0, 0.0
     seen = Seen(0.0, float(statics.min()), w, w, 0.0)
     losses = eta if w >= 0 else 1 / eta
     standing = losses * pull(0.0, 0.0, delta)
@@ -152,33 +171,44 @@ def start(plant: Plant, pull: Callable[[float, float, bool], float], switch: flo
     if time >= window and standing <= w:  # held by friction, brake or backstop
         return Seen(0.0, float(statics.min()), standing, standing, 0.0)
     kept: list[np.ndarray] = []
+    first = teeth.ahead(0.0)[0] if teeth is not None else 0.0
 
-    def through(force: float, here: np.ndarray, by: float) -> float:
+    def gone_ahead(here: np.ndarray) -> float:
+        """Elongation of the chain by the polygon, with its share of the damping."""
+        if teeth is None:
+            return 0.0
+        by, slope = teeth.ahead(float(here[0]))
+        return by - first + lag * slope * float(here[n])
+
+    def through(force: float, here: np.ndarray, by: float, ahead: float) -> float:
         """Force that the gear passes on, by the motion of its motors."""
         mass, row = made[by][3], made[by][4]
-        swung = (force - float(row @ (here[:n] + plant.retardation * here[n:]))) / mass[0]
+        swung = (force - float(row @ (here[:n] + lag * here[n:])) - row[0] * ahead) / mass[0]
         return by * (pull(time, float(here[n]), delta) - plant.rotor * swung)
 
-    if through(losses * pull(time, 0.0, delta) - w, state, losses) * (1 if losses == eta else -1) < 0:
+    if through(losses * pull(time, 0.0, delta) - w, state, losses, 0.0) * (1 if losses == eta else -1) < 0:
         losses = 1 / eta if losses == eta else eta
     while time < window:
-        free, old, new, *_, rows = made[losses]
+        free, old, new, _, _, rows, old_ahead, new_ahead = made[losses]
         before = losses * pull(time, float(state[n]), delta) - w
-        moved, after = free @ state + old * before, before
+        moved, after, then = free @ state + old * before + old_ahead * ahead, before, ahead
         for _ in range(4):
-            after = losses * pull(time + dt, float(moved[n] + new[n] * after), delta) - w
-        state, time = moved + new * after, time + dt
+            guess = moved + new * after + new_ahead * then
+            after = losses * pull(time + dt, float(guess[n]), delta) - w
+            then = gone_ahead(guess)
+        state, time, ahead = moved + new * after + new_ahead * then, time + dt, then
         if not delta and state[n] >= switch:
             delta = True
             after = losses * pull(time, float(state[n]), delta) - w
-        passed = through(after, state, losses)
+        passed = through(after, state, losses, ahead)
         seen.most, seen.least = max(seen.most, passed), min(seen.least, passed)
         if passed * (1 if losses == eta else -1) < 0:
             losses = 1 / eta if losses == eta else eta
-        kept.append(state)
+        both = state[:n] + lag * state[n:]
+        both[0] += ahead
+        kept.append(both)
         if len(kept) == 500 or time >= window:
-            both = np.array(kept)
-            tensions = (both[:, :n] + plant.retardation * both[:, n:]) @ rows.T
+            tensions = np.array(kept) @ rows.T
             entering = tensions[:, len(statics) - len(plant.static)]
             seen.entering = max(seen.entering, float(entering.max()))
             seen.smallest = min(seen.smallest, float((statics + tensions).min()))

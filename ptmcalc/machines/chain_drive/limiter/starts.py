@@ -23,9 +23,9 @@ from ptmcalc.machines.chain_drive.limiter.trips import fitted, tripped
 from ptmcalc.machines.chain_drive.model import mean_arm
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.speed_change.effects import weight_bound
-from ptmcalc.machines.chain_drive.speed_change.motor_teeth import curve_teeth_simulated
-from ptmcalc.machines.chain_drive.speed_change.teeth import curve_teeth, start_passing
-from ptmcalc.machines.chain_drive.speed_change.tooth_passes import START_TEETH
+from ptmcalc.machines.chain_drive.speed_change.motor_teeth import MOTOR_TEETH, curve_teeth_simulated
+from ptmcalc.machines.chain_drive.speed_change.teeth import start_passing
+from ptmcalc.machines.chain_drive.speed_change.tooth_passes import START_TEETH, TeethAlone
 from ptmcalc.machines.chain_drive.starting.bounds import enclosed
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, sprocket_mass, start_case
 from ptmcalc.machines.chain_drive.starting.motor_curve_waves import Judged, judged
@@ -75,24 +75,24 @@ def _on_curve(spec: ChainDrive, scene: Start, case: StartCase, level: int) -> tu
     """The same of a start that follows the curve of its motors: the force behind motors and gear."""
     try:
         found = judged(spec, scene, level)
+        beside, leaving = _beside_curve(spec, scene, case, found)
     except NumericsError:
         return Estimate.unknown(mean_arm(spec) * case.available), None
-    beside, leaving = _beside_curve(spec, scene, case, found, level)
     most, least = (one.widened(Interval(-beside, beside)) for one in (found.most, found.least))
     return larger(of_pull(spec, most, leaving), of_pull(spec, negative(least), leaving)), found.times[1]
 
 
-def _beside_curve(spec: ChainDrive, scene: Start, case: StartCase, found: Judged, level: int) -> tuple[float, Interval]:
-    """`_beside` of a start that follows the curve of its motors; its teeth are bounded, at finer levels simulated."""
+def _beside_curve(spec: ChainDrive, scene: Start, case: StartCase, found: Judged) -> tuple[float, Interval]:
+    """`_beside` of a start that follows the curve of its motors; its teeth are simulated."""
     if scene.chain == "relaxed" and spec.effects.get("chain_sticking") != "off":
         return math.inf, Interval(0.0, math.inf)
-    teeth = 0.0
+    teeth = TeethAlone(0.0, 0.0, 0.0, 0)
     if spec.effects.get("tooth_passing") != "off":
-        teeth = max(curve_teeth_simulated(spec, scene, 0)[:2]) if level > 0 else curve_teeth(spec, scene)
-    beside = teeth + _of_weight(spec, scene, found.dynamic)
-    if not found.smallest.low >= beside:
+        teeth = curve_teeth_simulated(spec, scene, 0)[-1]
+    weight = _of_weight(spec, scene, found.dynamic)
+    if not found.smallest.low >= teeth.taken + weight:
         return math.inf, Interval(0.0, math.inf)
-    bound = (2 if _moves_off(case) else 1) * beside
+    bound = (2 if _moves_off(case) else 1) * (max(teeth.entering, teeth.added) + weight)
     return bound, Interval(0.0, found.leaving + bound)
 
 
@@ -182,8 +182,6 @@ def _of_sprocket(case: StartCase, own: float) -> tuple[float, Interval]:
 def best_torque(spec: ChainDrive, scene: Start, decided: Callable[[Estimate], bool]) -> Estimate:
     """The torque as close as it takes to decide something: by modes, then with every tooth [N*m]."""
     best = start_torque(spec, scene, 0)[0]
-    if not decided(best) and start_case(spec, scene).follows_curve:
-        return start_torque(spec, scene, 1)[0]
     if decided(best) or toothed(spec, scene).exceeded:
         return best
     one = toothed_torque(spec, scene, 0)[0]
@@ -241,6 +239,12 @@ def toothed(spec: ChainDrive, scene: Start) -> Criterion:
     return Criterion("limiter", float(lacks), 1.0, meaning, "the file")
 
 
+def _cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> float:
+    """Predicted seconds: of the modes, or of the start on the curve of the motors with its teeth."""
+    whole = 3e-2 * 8**level
+    return whole + MOTOR_TEETH.cost(spec, scene, carried, level) if start_case(spec, scene).follows_curve else whole
+
+
 LIMITER_START: Solver[ChainDrive, Start] = Solver(
     name="limiter_start",
     title="torque of the torque limiter, start",
@@ -249,7 +253,7 @@ LIMITER_START: Solver[ChainDrive, Start] = Solver(
     represents=frozenset(),
     gives=frozenset({"limiter_torque"}),
     run=run,
-    cost=lambda spec, scene, carried, level: 3e-2 * 8**level,
+    cost=_cost,
     source="equilibrium of the sprocket; sums over modes",
     valid=fitted,
     levels=_LEVELS,

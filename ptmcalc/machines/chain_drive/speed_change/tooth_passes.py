@@ -40,7 +40,7 @@ from ptmcalc.numerics import tooth_passes
 _LEADS = 2
 """Positions of the first joint within the pitch at the coarsest level; twice as many at each finer one. A numerical
 choice: the difference from half as many is in the error bar. More narrow it and take longer."""
-MODES_OF_TEETH = 6
+_MODES = 6
 """Modes that the teeth excite one by one at the coarsest level; twice as many at each finer one. A numerical choice:
 the rest is bounded and added. More narrow the error bar and take longer."""
 _SECONDS = 4e-6
@@ -93,17 +93,24 @@ class _Found:
     work: int
     lead: float
     smallest_lead: FloatArray
+    risen: float
+    fallen: float
 
 
-def teeth_alone(
-    spec: ChainDrive, passings: tuple[Passing, ...], case: StartCase, level: int
-) -> tuple[float, float, int]:
-    """Most that the teeth add to the entering tension, and most that they take from the tension of any section, each
-    the sum over several motions of a drive [N]; and the work.
+@dataclass(frozen=True, slots=True)
+class TeethAlone:
+    """Most that the teeth add to the entering tension or take from it, add to the tension of any section, and take from
+    it, each the sum over several motions of a drive [N]; and the work."""
 
-    See `teeth.curve_teeth`.
-    """
-    most, least, work = 0.0, 0.0, 0
+    entering: float
+    added: float
+    taken: float
+    work: int
+
+
+def teeth_alone(spec: ChainDrive, passings: tuple[Passing, ...], case: StartCase, level: int) -> TeethAlone:
+    """The teeth without the mean acceleration of the start, see `teeth.curve_teeth`."""
+    entering, added, taken, work = 0.0, 0.0, 0.0, 0
     for one in passings:
         sections = sections_of(case, len(one.frequencies))
         found = _passed(spec, one, sections, level)
@@ -112,10 +119,11 @@ def teeth_alone(
             shapes = np.abs(one.shapes(strand, x)).max(axis=1) / one.masses.belt_mass
             bend = (one.frequencies * travel_time(case, strand) * float(x[1])) ** 2 / 8
             between = max(between, float(np.sum(bend * shapes * found.followed)))
-        most += found.largest.high
-        least += float((found.smallest_bar - found.smallest).max()) + between
+        entering += max(found.largest.high, found.fallen)
+        added += found.risen + between
+        taken += float((found.smallest_bar - found.smallest).max()) + between
         work += found.work
-    return most, least, work
+    return TeethAlone(entering, added, taken, work)
 
 
 def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) -> _Found:
@@ -146,6 +154,8 @@ def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) 
         sum(one.work for one in found),
         which / count,
         (rows / count)[1:],
+        float((tops.max(axis=0) + errors)[1:].max()) if sections else 0.0,
+        float((errors - lows.min(axis=0))[0]),
     )
 
 
@@ -234,7 +244,7 @@ def through(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], level:
     **Error** bounded: quadrature, neglected modes, and the initial positions of the link joints.
     **Source** derived in `numerics.run_through`; kinematics of the polygon.
     """
-    found = _passed(spec, range_passing(spec, scene, MODES_OF_TEETH << level), (), level)
+    found = _passed(spec, range_passing(spec, scene, _MODES << level), (), level)
     loads = range_loads(spec, scene, found.largest)
     return Result(
         {name: Found(load, {"time": found.time}) for name, load in loads.items()},
@@ -256,7 +266,7 @@ def started(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int)
     **Error** bounded as in `through`.
     **Source** derived in `numerics.run_through`.
     """
-    case, passing = start_case(spec, scene), start_passing(spec, scene, MODES_OF_TEETH << level)
+    case, passing = start_case(spec, scene), start_passing(spec, scene, _MODES << level)
     if case.acceleration <= 0:
         raise NumericsError("NUM102", "the drive does not move the chain: there is no motion to compute")
     sections = sections_of(case, len(passing.frequencies))
@@ -369,9 +379,7 @@ RANGE: Solver[ChainDrive, SpeedRange] = Solver(
     represents=frozenset({"tooth_passing"}),
     gives=frozenset({"tension_speed_range", "safety_start"}),
     run=through,
-    cost=lambda spec, scene, carried, level: cost_of_teeth(
-        spec, range_passing(spec, scene, MODES_OF_TEETH << level), 1, level
-    ),
+    cost=lambda spec, scene, carried, level: cost_of_teeth(spec, range_passing(spec, scene, _MODES << level), 1, level),
     source="derived in ptmcalc.numerics.run_through",
     valid=range_valid,
     always=frozenset({"tooth_passing"}),
@@ -386,7 +394,7 @@ START_TEETH: Solver[ChainDrive, Start] = Solver(
     gives=frozenset(TENSIONS),
     run=started,
     cost=lambda spec, scene, carried, level: cost_of_teeth(
-        spec, start_passing(spec, scene, MODES_OF_TEETH << level), 80, level
+        spec, start_passing(spec, scene, _MODES << level), 80, level
     ),
     source="derived in ptmcalc.numerics.run_through",
     valid=start_valid,

@@ -19,6 +19,7 @@ from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, sprocket_mass, start_case
 from ptmcalc.machines.chain_drive.starting.motor_force import StartForce, gear_of, stands_still, start_force
+from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import (
     Sections,
     beyond_slack,
@@ -48,6 +49,9 @@ _LEFT = 1e-3
 numerical choice, in the error bar. A smaller value follows the chain longer."""
 _ORDERS = 0.5, 2.0
 """Observed orders of convergence on which the error of the step is judged; the theoretical one is 2."""
+_SPEEDS = 0.2, 0.4, 0.6, 0.8
+"""Shares of the largest speed of the rigid chain between which the extremes are kept apart [1]: teeth add little to
+tensions at a low speed. A numerical choice: more narrow the error bar of a start with teeth."""
 _START_TIMES = 3.0
 """Predicted time until a chain runs steadily relative to the start time at mean torque [1], for the predicted cost."""
 _SECONDS = 1.5e-5
@@ -59,13 +63,15 @@ _PER_SAMPLE = 1.5e-9
 
 @dataclass(frozen=True, slots=True)
 class CurveStart:
-    """A start on a curve as the march takes it: body, gear, force, longest step."""
+    """A start on a curve as the march takes it: body, gear, force, longest step, times between which the extremes are
+    kept apart: the rigid chain reaches shares of its speed there [s]."""
 
     case: StartCase
     force: StartForce
     body: Body
     gear: Gear
     step: float
+    marks: tuple[float, ...]
 
 
 def curve_start_of(spec: ChainDrive, scene: Start, level: int) -> CurveStart:
@@ -80,7 +86,8 @@ def curve_start_of(spec: ChainDrive, scene: Start, level: int) -> CurveStart:
     step = _TURN / _resolved(w, shares, _UNRESOLVED / 4**level)
     rises = [force.motors.fill, *force.kinks]
     step = min([step, *(rise / 16 for rise in rises if rise > 0)])
-    return CurveStart(case, force, body, gear, step)
+    rigid = rigid_start(spec, scene)
+    return CurveStart(case, force, body, gear, step, () if rigid is None else rigid.reached(_SPEEDS))
 
 
 def _resolved(w: FloatArray, shares: FloatArray, left: float) -> float:
@@ -119,13 +126,15 @@ ON, SHAFT, ALONG = 0, 1, 2
 @dataclass(frozen=True, slots=True)
 class Judged:
     """A start with its bars: dynamic tension at the entering strand, largest and smallest force through the sprocket
-    shaft, smallest tension anywhere, bound of the largest leaving tension [N]; where and when they act."""
+    shaft, smallest tension anywhere, bound of the largest leaving tension [N]; ends of the parts of the start [s],
+    bounds of the dynamic entering tension and of the smallest tension in each [N]; where and when they act."""
 
     dynamic: Estimate
     most: Estimate
     least: Estimate
     smallest: Estimate
     leaving: float
+    parts: tuple[tuple[float, float, float], ...]
     times: tuple[float, float]
     where: dict[str, float]
     end: float
@@ -148,7 +157,7 @@ def judged(spec: ChainDrive, scene: Start, level: int) -> Judged:
     sections = sections_of(case, count)
     places = _places(spec, start, sections)
     left = _LEFT * abs(case.line.run_on)
-    plan = Plan(start.force.release, start.step, _RESPONSE, left, count, scene.window_factor)
+    plan = Plan(start.force.release, start.step, _RESPONSE, left, count, scene.window_factor, marks=start.marks)
     fine = _follow(start, places, plan)
     short = replace(plan, latest=fine.end, longer=1.0)
     middle, coarse = (_follow(start, places, short.coarser(factor)) for factor in (2, 4))
@@ -204,6 +213,7 @@ def _with_bars(start: CurveStart, sections: Sections, found: Followed, off: floa
         estimate(SHAFT, -1, base),
         smallest,
         case.line.run_off + float(max(found.largest_high[ALONG], after[ALONG])) + off,
+        _by_parts(start, static, found, off, between),
         (float(found.largest_time[ON]), float(found.largest_time[SHAFT])),
         {"time": float(found.smallest_time[ALONG + which]), "position": position_of(case, sections, which)},
         found.end,
@@ -212,6 +222,20 @@ def _with_bars(start: CurveStart, sections: Sections, found: Followed, off: floa
         order,
         len(static),
     )
+
+
+def _by_parts(
+    start: CurveStart, static: FloatArray, found: Followed, off: float, between: float
+) -> tuple[tuple[float, float, float], ...]:
+    """Bounds of the loads between the marks of a march, `Judged.parts`; the last part has no end."""
+    ends = [*start.marks, math.inf]
+    parts = []
+    for j, end in enumerate(ends):
+        late = found.after if j == len(ends) - 1 else np.zeros_like(found.after)
+        high = float(max(found.parts_high[j][ON] + off, late[ON]))
+        low = np.minimum(found.parts_low[j][ALONG:] - between - off, -late[ALONG:])
+        parts.append((end, high, float((static + np.minimum(low, 0.0)).min())))
+    return tuple(parts)
 
 
 def _between_sections(start: CurveStart, sections: Sections, found: Followed) -> float:

@@ -65,6 +65,12 @@ class RigidStart:
         """Times at which the acceleration jumps, since the release [s]."""
         return tuple(self.times[1:][np.diff(self.times) <= 0].tolist())
 
+    def reached(self, shares: tuple[float, ...]) -> tuple[float, ...]:
+        """Times, from switching on, at which the speed first reaches shares of the largest one [s]."""
+        rising = np.maximum.accumulate(self.speeds)
+        found = {float(self.times[int(np.argmax(rising >= share * self.fastest))]) for share in shares}
+        return tuple(self.release + one for one in sorted(found) if one > 0)
+
     def acceleration(self, t: FloatArray) -> FloatArray:
         """Acceleration at times since the release [m/s^2]."""
         return np.asarray(np.interp(t, self.times, self.accelerations))
