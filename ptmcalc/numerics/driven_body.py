@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-MOST_STEPS = 200_000
+MOST_STEPS = 50_000
 """Steps of a march. A numerical choice: more follow slower starts and take longer; fewer report NUM101."""
 
 

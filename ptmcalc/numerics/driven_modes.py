@@ -75,7 +75,7 @@ def follow(body: Body, gear: Gear, drive: Drive, places: Places, plan: Plan) -> 
     **Source** module docstring.
 
     Raises:
-        NumericsError: NUM101 where the march needs more than MOST_STEPS steps.
+        NumericsError: NUM101 where the march needs more than `plan.most` steps and what comes after is not bounded.
     """
     return _March(body, gear, drive, places, plan).go()
 
@@ -121,6 +121,9 @@ class _March:
             count = max(math.ceil(length / step * (1 - 1e-12)), 1)
             found.steps += self._chunk(count, length / count)
             if found.steps > self.plan.most:
+                found.after, found.end = self._after(), self.time
+                if math.isfinite(float(found.after.max(initial=0.0))):
+                    return found
                 raise NumericsError("NUM101", f"{found.steps} steps up to {self.time:.4g} s, the motion is not steady")
             late = self.time >= self.plan.latest
             if math.isinf(until):

@@ -54,6 +54,8 @@ _SPEEDS = 0.2, 0.4, 0.6, 0.8
 tensions at a low speed. A numerical choice: more narrow the error bar of a start with teeth."""
 _START_TIMES = 3.0
 """Predicted time until a chain runs steadily relative to the start time at mean torque [1], for the predicted cost."""
+_PERIODS = 3.0
+"""Periods of the lowest mode in that time [1]."""
 _SECONDS = 1.5e-5
 """Predicted seconds per step; measured once. Only its ratio to those of other solvers matters: a wrong value changes
 their order, no load."""
@@ -144,15 +146,48 @@ class Judged:
     sections: int
 
 
-@kept_for(16)
 def judged(spec: ChainDrive, scene: Start, level: int) -> Judged:
+    """The start at a level.
+
+    Raises:
+        NumericsError: NUM101 where it takes too many steps.
+    """
+    found = _judged(spec, scene, level)
+    if isinstance(found, NumericsError):
+        raise found
+    return found
+
+
+@kept_for(16)
+def _judged(spec: ChainDrive, scene: Start, level: int) -> Judged | NumericsError:
+    """`judged`, or what it raises."""
+    start = curve_start_of(spec, scene, level)
+    steps = _steps(start)
+    if steps > MOST_STEPS:
+        return NumericsError("NUM101", f"{steps:.3g} steps until the chain runs steadily")
+    try:
+        return _marched(spec, scene, start)
+    except NumericsError as error:
+        return error
+
+
+def _steps(start: CurveStart) -> float:
+    """Predicted steps until the chain runs steadily."""
+    case, force = start.case, start.force
+    window = _START_TIMES * (case.end if math.isfinite(case.end) else 0.0)
+    window += max([3 * force.motors.fill, *force.kinks]) + _PERIODS * 2 * math.pi / float(start.body.frequencies[0])
+    steep = max(force.steepest(stage) for stage in range(len(force.motors.stages)))
+    step = min(start.step, _RESPONSE * start.body.drive_mass / steep) if steep > 0 else start.step
+    return window / step
+
+
+def _marched(spec: ChainDrive, scene: Start, start: CurveStart) -> Judged:
     """The start at a level: four marches, and what their differences and bounds make of the loads.
 
     The error of the step is the difference of the extremes from those of steps twice as long over 2^p - 1, p the
     observed order; that of the modes whose speed the drive does not follow is the difference from half as many, over
     the ratio of their mobilities.
     """
-    start = curve_start_of(spec, scene, level)
     case, count = start.case, len(start.body.frequencies)
     sections = sections_of(case, count)
     places = _places(spec, start, sections)
@@ -252,8 +287,8 @@ def _between_sections(start: CurveStart, sections: Sections, found: Followed) ->
 def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
     """Tensions of a start whose motors follow their curve, by modes of the chain and the drive.
 
-        M V' = f,   y_k'' + 2 zeta w y_k' + w^2 y_k = f,   v = V + sum g_k y_k',   f = e M(t, v) i/R - W
-        S(s) = S_static(s) + (r(s) f - sum M_k(s) y_k'')/M
+        m V' = f,   y_k'' + 2 zeta w y_k' + w^2 y_k = f,   v = V + sum g_k y_k',   f = e M(t, v) i/R - W
+        S(s) = S_static(s) + (r(s) f - sum M_k(s) y_k'')/m
 
     v is the speed of the sprocket, M_k and r as in `chain_start_waves`, g_k of `chain_resonance.drive_mobilities`. The
     chain is held until the motors pull more than it resists. The gear loses e = eta or 1/eta by the sign of the force
@@ -325,18 +360,16 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
 
 
 def _cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> float:
-    """Predicted seconds; what would take more steps than are allowed is as expensive as that."""
+    """Predicted seconds; a start that takes more steps than are allowed ends at once."""
     if valid(spec, scene).exceeded:
         return 0.0
     start = curve_start_of(spec, scene, level)
     count, case = len(start.body.frequencies), start.case
-    window = start.force.release + _START_TIMES * (case.end if math.isfinite(case.end) else 0.0)
-    window += max([3 * start.force.motors.fill, *start.force.kinks])
-    steep = max(start.force.steepest(stage) for stage in range(len(start.force.motors.stages)))
-    step = min(start.step, _RESPONSE * start.body.drive_mass / steep) if steep > 0 else start.step
-    steps = min(window / step, MOST_STEPS)
+    steps = _steps(start)
+    if steps > MOST_STEPS:
+        return 2e-2
     fastest = float(start.body.frequencies[-1])
-    samples = steps * max(step * fastest / _TURN, 1.0)
+    samples = steps * max(start.step * fastest / _TURN, 1.0)
     sections = sum(len(x) for _, x in sections_of(case, count))
     return 2e-2 + 2 * (_SECONDS * steps + _PER_SAMPLE * samples * count * sections)
 

@@ -21,10 +21,10 @@ from ptmcalc.numerics.driven_body import Body, Followed, Places, Plan
 
 _X = np.linspace(0.0, 1.0, 33)
 """Shares of a strand at which the tension of the rigid chain is read [1]; it is linear between them."""
-_STEPS = 20
+_STEPS = 5
 """Steps of the rigid chain within the shortest time constant of its motors; a numerical choice. The difference from
 half as many is in the error bar."""
-_MOST = 50_000
+_MOST = 20_000
 """Most steps of the rigid chain. A numerical choice: a start that takes more has no bound."""
 _LEFT = 1e-3
 """Force that may be left to come at the end, relative to the tension at the entering strand [1]; a numerical choice. A
