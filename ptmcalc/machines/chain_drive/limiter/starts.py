@@ -241,9 +241,9 @@ def toothed(spec: ChainDrive, scene: Start) -> Criterion:
 
 def _cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> float:
     """Predicted seconds: of the modes, or of the start on the curve of the motors with its teeth."""
-    whole = 3e-2 * 8**level
+    whole = 3e-2 * 8.0**level
     if start_case(spec, scene).follows_curve:
-        whole += MOTOR_TEETH.cost(spec, scene, carried, level)
+        whole += float(MOTOR_TEETH.cost(spec, scene, carried, level))
     return whole
 
 
