@@ -75,6 +75,31 @@ def start_shares(loop: LoopMasses, frequencies: FloatArray) -> tuple[FloatArray,
     return np.asarray(share * shape.on), np.asarray(share * shape.off)
 
 
+def drive_mobilities(loop: LoopMasses, frequencies: FloatArray) -> tuple[FloatArray, float]:
+    """Shares of the modes of a chain and its drive in the motion of the drive under a force at the sprocket.
+
+        g_k = u_d^2/G,   sum over all modes = 1/m - 1/M
+
+    u_d is the amplitude of the drive, G the generalised mass with the drive, m its mass and M all masses. A force F at
+    the sprocket accelerates the drive by F/M + sum g_k y_k'', with y_k'' + 2 zeta w y_k' + w^2 y_k = F.
+
+    Args:
+        loop: the loop, torque imposed.
+        frequencies: w, of the lowest modes, as in `modal_tensions`, shape (k,) [rad/s].
+
+    Returns:
+        g_k, shape (k,), and the sum of those of all other modes [1/kg].
+
+    **Range** as `modal_tensions`.
+    **Error** rounding of the frequencies.
+    **Source** derived: completeness of the modes at the drive.
+    """
+    shape = _shape(loop, np.asarray(frequencies, float))
+    shares = shape.drive**2 / (shape.mass + loop.drive_mass * shape.drive**2)
+    whole = loop.belt_mass / loop.drive_mass / loop.total_mass
+    return np.asarray(shares), max(whole - float(shares.sum()), 0.0)
+
+
 def modal_tensions(loop: LoopMasses, frequencies: FloatArray, strand: int, x: FloatArray) -> FloatArray:
     """Parts of the tension at sections of a chain with which its modes follow an acceleration.
 

@@ -106,6 +106,11 @@ class MotorForce:
             if turning < stage.until_speed and since < stage.until_time:
                 break
             late += 1
+        return self.in_stage(late, since, speed)
+
+    def in_stage(self, late: int, since: float, speed: float) -> tuple[float, float]:
+        """Force in a stage so long after switching on, and its slope over the rim speed."""
+        turning = speed * self.turns
         if self.ramp > 0:
             share = self._reference_at(since / self.ramp)
             turning += self.reference * (1 - (self.falls_from * (1 - share) if self.falls_from > 0 else share))

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
@@ -22,10 +23,14 @@ from ptmcalc.machines.chain_drive.limiter.trips import fitted, tripped
 from ptmcalc.machines.chain_drive.model import mean_arm
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.speed_change.effects import weight_bound
+from ptmcalc.machines.chain_drive.speed_change.motor_teeth import MOTOR_TEETH, curve_teeth_simulated
 from ptmcalc.machines.chain_drive.speed_change.teeth import start_passing
-from ptmcalc.machines.chain_drive.speed_change.tooth_passes import START_TEETH
+from ptmcalc.machines.chain_drive.speed_change.tooth_passes import START_TEETH, TeethAlone
 from ptmcalc.machines.chain_drive.starting.bounds import enclosed
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, sprocket_mass, start_case
+from ptmcalc.machines.chain_drive.starting.motor_curve_waves import Judged, judged
+from ptmcalc.machines.chain_drive.starting.motor_curve_waves import valid as curve_valid
+from ptmcalc.machines.chain_drive.starting.motor_force import stands_still, start_force
 from ptmcalc.machines.chain_drive.starting.waves import felt, later, valid, waves
 from ptmcalc.numerics.mode_sum import mode_sum
 
@@ -48,6 +53,10 @@ def start_torque(spec: ChainDrive, scene: Start, level: int) -> tuple[Estimate, 
     rigid = case.line.static_resistance + case.acceleration * (case.line.moving_mass + own)
     if spec.effects.get("chain_elasticity") == "off" and not case.follows_curve:
         return of_pull(spec, Estimate.exact(rigid), leaving), None
+    if case.follows_curve and stands_still(spec, case):
+        return of_pull(spec, Estimate.exact(start_force(spec, case).standing), leaving), None
+    if case.follows_curve and not curve_valid(spec, scene).exceeded:
+        return _on_curve(spec, scene, case, level)
     if valid(spec, scene).exceeded:
         return Estimate.unknown(arm * rigid), None
     share = 0.0 if case.imposed_speed else own / case.masses.drive_mass
@@ -60,6 +69,31 @@ def start_torque(spec: ChainDrive, scene: Start, level: int) -> tuple[Estimate, 
     most, least = (one.widened(Interval(-beside, beside)) for one in (most, least))
     torque = larger(of_pull(spec, most, leaving), of_pull(spec, negative(least), leaving))
     return torque, case.held + float(peaks.largest_time[0])
+
+
+def _on_curve(spec: ChainDrive, scene: Start, case: StartCase, level: int) -> tuple[Estimate, float | None]:
+    """The same of a start that follows the curve of its motors: the force behind motors and gear."""
+    try:
+        found = judged(spec, scene, level)
+        beside, leaving = _beside_curve(spec, scene, case, found)
+    except NumericsError:
+        return Estimate.unknown(mean_arm(spec) * case.available), None
+    most, least = (one.widened(Interval(-beside, beside)) for one in (found.most, found.least))
+    return larger(of_pull(spec, most, leaving), of_pull(spec, negative(least), leaving)), found.times[1]
+
+
+def _beside_curve(spec: ChainDrive, scene: Start, case: StartCase, found: Judged) -> tuple[float, Interval]:
+    """`_beside` of a start that follows the curve of its motors; its teeth are simulated."""
+    if scene.chain == "relaxed" and spec.effects.get("chain_sticking") != "off":
+        return math.inf, Interval(0.0, math.inf)
+    teeth = TeethAlone(0.0, 0.0, 0.0, 0)
+    if spec.effects.get("tooth_passing") != "off":
+        teeth = curve_teeth_simulated(spec, scene, 0)[-1]
+    weight = _of_weight(spec, scene, found.dynamic)
+    if not found.smallest.low >= teeth.taken + weight:
+        return math.inf, Interval(0.0, math.inf)
+    bound = (2 if _moves_off(case) else 1) * (max(teeth.entering, teeth.added) + weight)
+    return bound, Interval(0.0, found.leaving + bound)
 
 
 def _beside(spec: ChainDrive, scene: Start, case: StartCase, most: Estimate) -> tuple[float, Interval]:
@@ -161,10 +195,11 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
 
     F is the force of the drive at the sprocket pitch circle, m_d the reduced mass of drive and sprocket, and m_s the
     part of the sprocket. The tensions on both sides of the sprocket are sums over modes, as in `chain_start_waves`.
-    The value has the mean arm z p/(2 pi); the error bar contains every arm over the passage of a tooth.
+    The value has the mean arm z p/(2 pi); the error bar contains every arm over the passage of a tooth. In a start on
+    a motor curve F_l is that of `chain_motor_waves`.
 
-    **Range** a taut chain that slides forward. Starts along a motor curve, with a driven tail, of a relaxed chain or of
-    one that may go slack have no bound.
+    **Range** a taut chain that slides forward. Starts with a driven tail, of a relaxed chain or of one that may go
+    slack have no bound.
     **Error** bounded: samples, neglected modes, passing teeth, inertia of the take-up weight, arms.
     **Source** equilibrium of the sprocket; sums over modes, derived in `numerics.mode_sum` and `chain_resonance`.
     """
@@ -204,6 +239,14 @@ def toothed(spec: ChainDrive, scene: Start) -> Criterion:
     return Criterion("limiter", float(lacks), 1.0, meaning, "the file")
 
 
+def _cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> float:
+    """Predicted seconds: of the modes, or of the start on the curve of the motors with its teeth."""
+    whole = 3e-2 * 8.0**level
+    if start_case(spec, scene).follows_curve:
+        whole += float(MOTOR_TEETH.cost(spec, scene, carried, level))
+    return whole
+
+
 LIMITER_START: Solver[ChainDrive, Start] = Solver(
     name="limiter_start",
     title="torque of the torque limiter, start",
@@ -212,7 +255,7 @@ LIMITER_START: Solver[ChainDrive, Start] = Solver(
     represents=frozenset(),
     gives=frozenset({"limiter_torque"}),
     run=run,
-    cost=lambda spec, scene, carried, level: 3e-2 * 8**level,
+    cost=_cost,
     source="equilibrium of the sprocket; sums over modes",
     valid=fitted,
     levels=_LEVELS,

@@ -19,11 +19,13 @@ from ptmcalc.machines.chain_drive.spec import (
     Start,
     Stop,
 )
-from ptmcalc.machines.chain_drive.speed_change.teeth import range_passing, start_passing
+from ptmcalc.machines.chain_drive.speed_change.teeth import curve_teeth, range_passing, start_passing
 from ptmcalc.machines.chain_drive.speed_change.tooth_passes import range_loads
 from ptmcalc.machines.chain_drive.starting import bounds as start_bounds
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, light_return, start_case
+from ptmcalc.machines.chain_drive.starting.motor_force import stands_still
+from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
 from ptmcalc.machines.chain_drive.stopping.formulas import OF_STOP
 from ptmcalc.machines.chain_drive.stopping.motion import StopCase, extremes, stop_case
@@ -65,15 +67,18 @@ def elastic_criterion(spec: ChainDrive, scene: ChainScene) -> Criterion:
     a b(s) is the bound for a torque step (`laws.loop_bounds.stray`), g the share that remains with the profile. S_low
     is the bound of the minimum tension in a stop.
 
-    **Range** any start and any stop; infinite if a section has no static tension.
+    **Range** any start and any stop; infinite if a section has no static tension, and for a start on a motor curve.
     **Error** an upper bound of the ratio.
     **Source** derived in `laws.loop_bounds`; the threshold of 5 % is an engineering choice.
     """
     if isinstance(scene, Start):
-        value = start_bounds.stray_ratio(start_case(spec, scene))
+        case = start_case(spec, scene)
+        value = start_bounds.stray_ratio(case)
+        if case.follows_curve:
+            value = math.inf if _moves(spec, case) else 0.0
     else:
-        case = stop_case(spec, scene)
-        found, least = extremes(spec, case), min(case.line.ends)
+        stop = stop_case(spec, scene)
+        found, least = extremes(spec, stop), min(stop.line.ends)
         value = (found.smallest - found.lowest) / least if least > 0 else math.inf
     meaning = "maximum tension added by chain waves / static tension"
     return Criterion("E", value, ELASTIC_THRESHOLD, meaning, "laws.loop_bounds")
@@ -97,13 +102,18 @@ def elastic_bound(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
     if not isinstance(scene, Start):
         return _of_stop(spec, scene, loads)
     case = start_case(spec, scene)
-    if not case.moves:
+    if not _moves(spec, case):
         return {}
     if case.follows_curve or _has_driven_tail(spec):
         return _anything(loads)
     intervals = start_bounds.enclosed(case)
     found = start_bounds.offsets(spec, case, intervals, loads)
     return found if intervals["tension_min"].low >= 0 else _unless_taut(found, loads)
+
+
+def _moves(spec: ChainDrive, case: StartCase) -> bool:
+    """Whether the drive moves the chain: at mean torque, or on its curve at standstill."""
+    return not stands_still(spec, case) if case.follows_curve else case.moves
 
 
 def _of_stop(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
@@ -253,26 +263,37 @@ def weight_criterion(spec: ChainDrive, scene: Start) -> Criterion:
 
         max(kappa/0.1, (a_0/g)/0.03),   kappa = M w_1/(4 Z_2),   a_0 = F/m_drive;   0 without `takeup.mass`
 
-    a_0 is the acceleration of the drive alone, w_1 the lowest frequency, Z_2 the impedance of the return strand.
+    a_0 is the acceleration of the drive alone, w_1 the lowest frequency, Z_2 the impedance of the return strand. On a
+    motor curve F is half of the total variation of the force: a step that begins and ends has the same.
 
     **Range** a gravity take-up; without a mass in the file the tension is constant.
     **Error** an estimate.
     **Source** take-up weight on two falls; thresholds are an engineering choice.
     """
-    kappa, drive = _weight_numbers(spec, start_case(spec, scene))
+    kappa, drive = _weight_numbers(spec, scene, start_case(spec, scene))
     value = max(kappa / 0.1, drive / 0.03)
     return Criterion("kappa", value, 1.0, "inertia of the take-up weight", "take-up weight on two falls")
 
 
-def _weight_numbers(spec: ChainDrive, case: StartCase) -> tuple[float, float]:
+def _weight_numbers(spec: ChainDrive, scene: Start, case: StartCase) -> tuple[float, float]:
     """kappa, and the acceleration of the drive alone over that of gravity [1]."""
     mass = case.line.takeup_mass
-    if mass == 0 or not case.moves:
+    if mass == 0 or not _moves(spec, case):
         return 0.0, 0.0
     impedance = math.sqrt(case.line.back.line_mass * case.line.back.stiffness)
     kappa = mass / 4 * float(natural_frequencies(case, 1)[0]) / impedance
-    alone = case.acceleration * (1 if case.imposed_speed else case.whole_mass / case.masses.drive_mass)
+    alone = _acceleration(spec, scene, case)
+    alone *= 1 if case.imposed_speed else case.whole_mass / case.masses.drive_mass
     return kappa, alone / spec.gravity
+
+
+def _acceleration(spec: ChainDrive, scene: Start, case: StartCase) -> float:
+    """Of the rigid chain by a step of force that varies as much as the force of the start [m/s^2]: on a motor curve by
+    half of its total variation, infinite where that is not known."""
+    if not case.follows_curve:
+        return case.acceleration
+    found = rigid_start(spec, scene)
+    return math.inf if found is None else found.swing / case.whole_mass
 
 
 def weight_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
@@ -294,9 +315,12 @@ def weight_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
         return {}
     if weight_criterion(spec, scene).exceeded:
         return _anything(loads)
-    kappa, drive = _weight_numbers(spec, case)
+    kappa, drive = _weight_numbers(spec, scene, case)
     change = case.line.run_off * (3.4 * drive / 2 + kappa)
-    pushed = case.line.takeup_mass / 4 * drive * spec.gravity + kappa * case.acceleration * case.masses.belt_mass
+    pushed = (
+        case.line.takeup_mass / 4 * drive * spec.gravity
+        + kappa * _acceleration(spec, scene, case) * case.masses.belt_mass
+    )
     others = _unless_slack(spec, case, change, loads)
     if not all(one.bounded for one in others.values()):
         return others
@@ -322,7 +346,7 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
         P/S_static,   P of `passing.Passing.teeth_bound`;   infinite if the entering strand has no tension
 
-    **Range** any start and any range of speeds; infinite with a driven tail and on a motor curve.
+    **Range** any start and any range of speeds; infinite with a driven tail.
     **Error** an upper bound.
     **Source** derived in `chain_start.passing_bound`; the threshold of 5 % is an engineering choice.
     """
@@ -333,15 +357,15 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
 
 def _teeth(spec: ChainDrive, scene: Start | SpeedRange) -> float:
-    """The bound of either scene [N]; unbounded for a driven tail and along a motor's curve."""
+    """The bound of either scene [N]; unbounded for a driven tail."""
     if _has_driven_tail(spec):
         return math.inf
     if isinstance(scene, SpeedRange):
         return range_passing(spec, scene).teeth_bound(spec)
     case = start_case(spec, scene)
-    if not case.moves:
+    if not _moves(spec, case):
         return 0.0
-    return math.inf if case.follows_curve else start_passing(spec, scene).teeth_bound(spec)
+    return curve_teeth(spec, scene) if case.follows_curve else start_passing(spec, scene).teeth_bound(spec)
 
 
 def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Offsets:
@@ -349,8 +373,10 @@ def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Of
 
         start: |dS| <= P      range of speeds: 0 <= S <= P + m |e| R
 
-    **Range** a taut chain and a sprocket speed that only rises or only falls; unbounded with a driven tail and on a
-    motor curve.
+    On a motor curve P is the sum of the bounds for a drive whose torque does not depend on its speed, and for a drive
+    whose speed does not change (`teeth.curve_teeth`).
+
+    **Range** a taut chain and a sprocket speed that only rises or only falls; unbounded with a driven tail.
     **Error** a bound; see `chain_start.passing_bound`.
     **Source** variation of the input of every mode, derived.
     """

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,11 +15,13 @@ from ptmcalc.machines.chain_drive.model import (
     damping_ratios,
     loop_masses,
     natural_frequencies,
+    of_loop,
     tail_teeth,
 )
 from ptmcalc.machines.chain_drive.polygon.excitation import residual
 from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case
+from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies as start_frequencies
 from ptmcalc.numerics import tooth_passes
 
@@ -47,6 +49,8 @@ class Passing:
     window: float
     fastest: float
     sharpest: float
+    started: bool = True
+    """False for the teeth alone, without the mean acceleration of the start"""
 
     def shapes(self, strand: int, x: FloatArray) -> FloatArray:
         """Tensions of the modes at sections, shape (k, n) [kg]."""
@@ -146,6 +150,8 @@ class Passing:
     @property
     def excited_by_start(self) -> FloatArray:
         """What excites each mode per mean acceleration, as `modal_shapes` at an end do per polygon's [kg]."""
+        if not self.started:
+            return np.zeros(len(self.frequencies))
         share = 1.0 if self.masses.imposed_speed else self.masses.total_mass / self.masses.drive_mass
         return share * (self.shapes(CARRY, _END) - self.shapes(RETURN, np.zeros(1)))[:, 0]
 
@@ -203,6 +209,53 @@ def start_passing(spec: ChainDrive, scene: Start, count: int = _FOR_BOUNDS) -> P
         fastest=case.line.speed,
         sharpest=case.acceleration,
     )
+
+
+def curve_teeth(spec: ChainDrive, scene: Start) -> float:
+    """Most that the teeth of a start on a motor curve add to the entering tension or take from it [N].
+
+        |S| <= |S_m| + |S_v|,   S = H u (A + B)/(H + A + B) = ((H + A) S_m + B S_v)/(H + A + B)
+
+    u is the polygon motion, H the dynamic stiffness of the chain, A = -m w^2 that of the drive mass, B = -i w dF/dv
+    that of motors whose torque falls with the speed. S_m is the tension of a torque that does not depend on the speed,
+    S_v that of a constant speed. Imaginary parts of H and B have one sign: no weight exceeds 1.
+
+    **Range** any start; infinite where the motors do not move the chain.
+    **Error** a bound for every harmonic of a motor line of constant slope; the change of slope during the start, and
+    the slow growth where the torque rises with the speed, are not in it.
+    **Source** derived; `Passing.teeth_bound` for both parts.
+    """
+    parts = curve_passings(spec, scene)
+    return sum(one.teeth_bound(spec) for one in parts) if parts else math.inf
+
+
+def curve_passings(spec: ChainDrive, scene: Start, count: int = _FOR_BOUNDS) -> tuple[Passing, ...]:
+    """The teeth of a start on a motor curve without its mean acceleration, the sprocket turned as that of the rigid
+    chain: for a torque that does not depend on the speed, and for a constant speed; nothing where the rigid chain is
+    not followed."""
+    found, case = rigid_start(spec, scene), start_case(spec, scene)
+    if found is None:
+        return ()
+    passings = []
+    for masses in (case.masses, replace(case.masses, drive_mass=0.0, imposed_speed=True)):
+        w = np.array(of_loop(masses, 0.0, count))
+        w = w[: swinging(ratios(spec, scene, w))]
+        passings.append(
+            Passing(
+                masses=masses,
+                frequencies=w,
+                damping_ratios=ratios(spec, scene, w),
+                way=found.way,
+                speed=found.speed,
+                acceleration=found.acceleration,
+                kinks=found.kinks,
+                window=found.end - found.release,
+                fastest=found.fastest,
+                sharpest=found.sharpest,
+                started=False,
+            )
+        )
+    return tuple(passings)
 
 
 Motion = tuple[

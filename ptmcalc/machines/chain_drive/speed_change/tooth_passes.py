@@ -93,6 +93,37 @@ class _Found:
     work: int
     lead: float
     smallest_lead: FloatArray
+    risen: float
+    fallen: float
+
+
+@dataclass(frozen=True, slots=True)
+class TeethAlone:
+    """Most that the teeth add to the entering tension or take from it, add to the tension of any section, and take from
+    it, each the sum over several motions of a drive [N]; and the work."""
+
+    entering: float
+    added: float
+    taken: float
+    work: int
+
+
+def teeth_alone(spec: ChainDrive, passings: tuple[Passing, ...], case: StartCase, level: int) -> TeethAlone:
+    """The teeth without the mean acceleration of the start, see `teeth.curve_teeth`."""
+    entering, added, taken, work = 0.0, 0.0, 0.0, 0
+    for one in passings:
+        sections = sections_of(case, len(one.frequencies))
+        found = _passed(spec, one, sections, level)
+        between = 0.0
+        for strand, x in sections:
+            shapes = np.abs(one.shapes(strand, x)).max(axis=1) / one.masses.belt_mass
+            bend = (one.frequencies * travel_time(case, strand) * float(x[1])) ** 2 / 8
+            between = max(between, float(np.sum(bend * shapes * found.followed)))
+        entering += max(found.largest.high, found.fallen)
+        added += found.risen + between
+        taken += float((found.smallest_bar - found.smallest).max()) + between
+        work += found.work
+    return TeethAlone(entering, added, taken, work)
 
 
 def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) -> _Found:
@@ -123,6 +154,8 @@ def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) 
         sum(one.work for one in found),
         which / count,
         (rows / count)[1:],
+        float((tops.max(axis=0) + errors)[1:].max()) if sections else 0.0,
+        float((errors - lows.min(axis=0))[0]),
     )
 
 
@@ -141,7 +174,9 @@ def _ridden(
     gains = np.concatenate([passing.shapes(strand, x) for strand, x in (_RUN_ON, *sections)], axis=1)
     gains /= passing.masses.belt_mass
     behind = np.concatenate([loop_bounds.quasi_static(passing.masses, *one) for one in (_RUN_ON, *sections)])
-    behind -= begun @ gains  # what the modes left out take of the mean acceleration, followed at once
+    behind = (
+        behind * passing.started - begun @ gains
+    )  # what the modes left out take of the mean acceleration, followed at once
     fixed, stiffness = passing.masses.fixed_length, share * passing.stiffness
     leads = (lead, (lead + (far_place(spec) or 0.0)) % 1.0) if fixed else (lead,)
 
@@ -288,7 +323,8 @@ def _lowest(
     return Estimate(value, float(lows.min()), max(high, value), numerical=bar), at, which
 
 
-def _cost(spec: ChainDrive, passing: Passing, sections: int, level: int) -> float:
+def cost_of_teeth(spec: ChainDrive, passing: Passing, sections: int, level: int) -> float:
+    """Predicted seconds of all passes [s]."""
     if not 0 < passing.window < math.inf:
         return 0.0
     fastest = float(np.max(passing.frequencies * np.maximum(1.0, 2 * passing.damping_ratios)))
@@ -343,7 +379,7 @@ RANGE: Solver[ChainDrive, SpeedRange] = Solver(
     represents=frozenset({"tooth_passing"}),
     gives=frozenset({"tension_speed_range", "safety_start"}),
     run=through,
-    cost=lambda spec, scene, carried, level: _cost(spec, range_passing(spec, scene, _MODES << level), 1, level),
+    cost=lambda spec, scene, carried, level: cost_of_teeth(spec, range_passing(spec, scene, _MODES << level), 1, level),
     source="derived in ptmcalc.numerics.run_through",
     valid=range_valid,
     always=frozenset({"tooth_passing"}),
@@ -357,7 +393,9 @@ START_TEETH: Solver[ChainDrive, Start] = Solver(
     represents=frozenset({"chain_elasticity", "higher_modes", "tooth_passing"}),
     gives=frozenset(TENSIONS),
     run=started,
-    cost=lambda spec, scene, carried, level: _cost(spec, start_passing(spec, scene, _MODES << level), 80, level),
+    cost=lambda spec, scene, carried, level: cost_of_teeth(
+        spec, start_passing(spec, scene, _MODES << level), 80, level
+    ),
     source="derived in ptmcalc.numerics.run_through",
     valid=start_valid,
     always=frozenset({"chain_elasticity", "higher_modes", "tooth_passing"}),

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.starting_gear import SoftStarter, in_star
 from ptmcalc.machines.chain_drive.model import chain_line, drive_of, mean_arm
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Drive, Start
@@ -36,11 +37,14 @@ def motor_torque_at(drive: Drive, turns: float) -> MotorForce:
         stages = in_star(stages, drive.switch_over)
     count = float(drive.motor.count)
     soft = starter if isinstance(starter, SoftStarter) and coupling is None else None
+    ramped = curve if isinstance(curve, ConverterMotor) else None
     return MotorForce(
         stages,
         turns,
         count,
         count,
+        reference=ramped.speed if ramped is not None else 0.0,
+        ramp=ramped.ramp_time if ramped is not None else 0.0,
         fill=coupling.time_constant if coupling is not None else 0.0,
         soft_from=soft.initial_voltage if soft is not None else 1.0,
         soft_time=soft.time if soft is not None else 0.0,

@@ -21,6 +21,8 @@ from ptmcalc.machines.chain_drive.starting.motion import (
     speed_over_time,
     start_case,
 )
+from ptmcalc.machines.chain_drive.starting.motor_force import stands_still
+from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 
 
 def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -31,7 +33,8 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
 
     m includes chain, load, tail and sprocket; R = z p/(2 pi). r is the mass accelerated by the entering strand (gravity
     take-up), or this mass less its mean over the loop (screw take-up). For an imposed speed a = V q'_max. A star-delta
-    starter, a soft starter or fluid couplings change M over speed and time in the starting time and the reserve.
+    starter, a soft starter or fluid couplings change M over speed and time. On a curve a is the largest acceleration on
+    the way to the operating speed.
 
     **Range** any start; the gear losses are those at full torque.
     **Error** no error bar of its own except the quadrature error on a motor curve; the bounds of the effects cover
@@ -44,10 +47,23 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
     loads |= {name: Estimate.exact(value) for name, value in _of_the_drive(spec, case).items()}
     loads["start_time"] = _start_time(spec, scene, case)
     if case.follows_curve:
-        loads |= {name: Estimate.unknown(loads[name].value) for name in TENSIONS}
+        loads |= _on_curve(spec, scene, case)
     window = (0.0, case.held + case.window)
     found = {name: Found(load) for name, load in loads.items()}
     return Result(found, work=1, window=window, histories=lambda: _histories(case))
+
+
+def _on_curve(spec: ChainDrive, scene: Start, case: StartCase) -> dict[str, Estimate]:
+    """Tensions of the rigid chain along the curve of its motors: the static ones where they do not move it, without a
+    bound where the start takes too many steps."""
+    if stands_still(spec, case):
+        return loads_of(spec, case, Estimate.exact(0.0), Estimate.exact(min(case.line.ends)))
+    found = rigid_start(spec, scene)
+    if found is None:
+        _, swing, least = rigid_tensions(case)
+        loads = loads_of(spec, case, Estimate.exact(swing), Estimate.exact(least))
+        return {name: Estimate.unknown(loads[name].value) for name in TENSIONS}
+    return loads_of(spec, case, found.dynamic, found.smallest)
 
 
 def _histories(case: StartCase) -> dict[str, History]:
