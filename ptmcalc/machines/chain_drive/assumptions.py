@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
+from ptmcalc.components.motor_starts import constant_losses
 from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import chain_selection
@@ -12,6 +13,7 @@ from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import drive_of, filled
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start, Stopping
+from ptmcalc.machines.chain_drive.starting.permitted_starts import PERMITTED
 from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene
 
@@ -228,6 +230,8 @@ def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
             lambda spec: Interval(*(part * filled(drive_of(spec).motor.inertia) for part in (0.10, 0.25))),
             "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
         )
+        if spec.drive.motor.no_load_starts is not None:
+            yield constant_losses(("drive", "motor"), Use(frozenset({Start}), frozenset({PERMITTED.name})))
     if spec.wear is not None:
         yield Assumption(
             ("wear", "elongation"),

@@ -10,7 +10,8 @@ from ptmcalc.base import units
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.drive import Gear
 from ptmcalc.components.motor import AnyMotor, FloatArray
-from ptmcalc.components.plate_motor import PlateMotor, gives_curve
+from ptmcalc.components.motor_starts import StartingMotor
+from ptmcalc.components.plate_motor import gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
 from ptmcalc.components.starting_gear import STAR, AnyStarter, StarDelta, UnratedCoupling, gear_without_curve
@@ -29,6 +30,7 @@ from ptmcalc.spec.fields import (
     FactorFromOne,
     Force,
     Fraction,
+    HourlyRate,
     Inertia,
     PositiveAngle,
     PositivePressure,
@@ -43,7 +45,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 from ptmcalc.spec.shape import Also
 
@@ -54,7 +56,7 @@ _MEAN_OF = 401
 class Drive(Fragment):
     """Motors and gear on the shaft of the driving sprocket."""
 
-    motor: PlateMotor
+    motor: StartingMotor
     """the motors"""
     coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
@@ -342,6 +344,8 @@ class ChainDrive(MachineSpec):
     """range of speeds of a drive with variable speed; half to one and a half of `speed` when left out"""
     drive: Drive | None = None
     """motors and gear; needed for starts and stops"""
+    starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
+    """starts per hour of the chain; compared with the permitted starts of the motors"""
     equalising: Equalising | None = None
     """an equalising drive"""
     brake: Brake | None = None

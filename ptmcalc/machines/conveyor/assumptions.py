@@ -7,6 +7,7 @@ from dataclasses import replace
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor_starts import constant_losses
 from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
@@ -447,14 +448,7 @@ def _of_a_drive(path: KeyPath, drive: Drive) -> Iterator[Assumption[Conveyor]]:
         "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
     )
     if drive.motor.no_load_starts is not None:
-        yield Assumption(
-            (*path, "motor", "constant_losses"),
-            units.RATIO,
-            lambda spec: 0.4,
-            lambda spec: Interval(0.25, 0.5),
-            "losses of cage motors by IEC 60034-2-1: a quarter to half in iron, friction and magnetising current",
-            Use(frozenset({Start}), frozenset({PERMITTED.name})),
-        )
+        yield constant_losses((*path, "motor"), Use(frozenset({Start}), frozenset({PERMITTED.name})))
     if drive.converter is not None and drive.converter.follows is not None:
         yield Assumption(
             (*path, "converter", "deviation"),

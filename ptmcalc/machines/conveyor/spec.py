@@ -9,6 +9,7 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.drive import Gear
 from ptmcalc.components.motor import AnyMotor
+from ptmcalc.components.motor_starts import StartingMotor
 from ptmcalc.components.plate_motor import gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
@@ -16,7 +17,6 @@ from ptmcalc.components.starting_gear import AnyStarter, FluidCoupling, gear_wit
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.keys.converter import DriveConverter, follows_wrongly, linked
-from ptmcalc.machines.conveyor.keys.motor import ConveyorMotor
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
 from ptmcalc.machines.conveyor.keys.route import Route
 from ptmcalc.machines.conveyor.keys.takeup import TakeUp
@@ -87,7 +87,7 @@ class DriveDrum(Fragment):
 class Drive(Fragment):
     """Motors, gear and pulley at the head."""
 
-    motor: ConveyorMotor
+    motor: StartingMotor
     """the motors"""
     coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""

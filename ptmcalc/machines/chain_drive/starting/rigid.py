@@ -22,6 +22,7 @@ from ptmcalc.machines.chain_drive.starting.motion import (
     start_case,
 )
 from ptmcalc.machines.chain_drive.starting.motor_force import stands_still
+from ptmcalc.machines.chain_drive.starting.permitted_starts import PERMITTED, permitted_starts
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 
 
@@ -48,6 +49,7 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
     loads["start_time"] = _start_time(spec, scene, case)
     if case.follows_curve:
         loads |= _on_curve(spec, scene, case)
+    loads |= permitted_starts(spec, scene, case)
     window = (0.0, case.held + case.window)
     found = {name: Found(load) for name, load in loads.items()}
     return Result(found, work=1, window=window, histories=lambda: _histories(case))
@@ -131,6 +133,7 @@ def _start_time(spec: ChainDrive, scene: Start, case: StartCase) -> Estimate:
 _GIVES = frozenset(
     {
         *TENSIONS,
+        PERMITTED.name,
         "static_resistance",
         "starting_force",
         "starting_reserve",

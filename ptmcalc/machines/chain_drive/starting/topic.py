@@ -7,6 +7,7 @@ from ptmcalc.machines.chain_drive.spec import ChainDrive
 from ptmcalc.machines.chain_drive.starting.breakaway import BREAKAWAY
 from ptmcalc.machines.chain_drive.starting.checks import SLACK, SLOW, STRENGTH, WEAK
 from ptmcalc.machines.chain_drive.starting.motor_curve_waves import MOTOR_WAVES
+from ptmcalc.machines.chain_drive.starting.permitted_starts import PERMITTED, STARTS
 from ptmcalc.machines.chain_drive.starting.rigid import RIGID_START, START_NOTES
 from ptmcalc.machines.chain_drive.starting.waves import ONE_MODE, WAVES
 
@@ -20,7 +21,8 @@ STARTING: Topic[ChainDrive] = Topic(
         LoadInfo("acceleration_motor", "motor angular acceleration", units.ANGULAR_ACCELERATION, headline=False),
         LoadInfo("reduced_inertia", "equivalent inertia at motor shaft", units.INERTIA, headline=False),
         LoadInfo("safety_start", "safety factor, start or stop", units.RATIO, governing=True),
+        PERMITTED,
     ),
     solvers=(RIGID_START, START_NOTES, ONE_MODE, BREAKAWAY, WAVES, MOTOR_WAVES),
-    checks=(WEAK, SLOW, STRENGTH, SLACK),
+    checks=(WEAK, SLOW, STRENGTH, SLACK, STARTS),
 )

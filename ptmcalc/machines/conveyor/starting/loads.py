@@ -7,7 +7,7 @@ import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.components.plate_motor import PlateMotor
+from ptmcalc.components.motor_starts import no_load_speed
 from ptmcalc.contract.result import Found, LoadInfo, of
 from ptmcalc.laws import loop_bounds, sag, slip_heat, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -81,14 +81,6 @@ def _residual(case: StartCase, frequency: float) -> float:
 # -- heat of the motors ---------------------------------------------------------------------------------------------
 
 
-def no_load_speed(motor: PlateMotor) -> float | None:
-    """Speed of a motor without load, as far as the file gives it [rad/s]."""
-    if motor.no_load_speed is not None:
-        return motor.no_load_speed
-    curve = motor.running_curve
-    return curve.no_load_speed if curve is not None else None
-
-
 def heated(drive: Drive) -> str:
     """The load of the heat of a drive in a start, of its rotor or its fluid coupling; empty where it is unknown."""
     coupling = drive.fluid_coupling
@@ -130,27 +122,8 @@ def slip_heat_of(spec: Conveyor, scene: Start, case: StartCase, name: str, fast:
     turns = drive.gear.ratio * 2 / drive.drum.diameter
     times, torque, speed = _rigid(motion, name, drive)
     heat = slip_heat.slip_heat(times, torque, np.full_like(times, fast), np.minimum(speed * turns, fast))
-    lead = float(np.abs(torque).max()) * turns * _lead(case)
+    lead = float(np.abs(torque).max()) * turns * loop_bounds.drive_lead(case.masses, case.acceleration)
     return Estimate(heat - lead, heat - 2 * lead, heat, model=lead)
-
-
-def _lead(case: StartCase) -> float:
-    """How far the drum is ahead of the mean of all that moves when the belt is stretched quasi-statically [m].
-
-    d = (1/M) integral of dm(s) integral from s to the drum of a r/EA
-    """
-    masses = case.masses
-    behind = {strand: case.acceleration * loop_bounds.quasi_static(masses, strand, _X) for strand in (RETURN, CARRY)}
-    carry = masses.carry_compliance * _to_the_end(behind[CARRY])
-    back = carry[0] + masses.return_compliance * _to_the_end(behind[RETURN])
-    moment = masses.carry_mass * np.trapezoid(carry, _X) + masses.return_mass * np.trapezoid(back, _X)
-    return float(moment + masses.tail_mass * carry[0]) / masses.total_mass
-
-
-def _to_the_end(values: FloatArray) -> FloatArray:
-    """Integral over a strand from each fraction of it to its end."""
-    steps = (values[1:] + values[:-1]) / 2 * np.diff(_X)
-    return np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])
 
 
 def _rigid(motion: Moving, name: str, drive: PlacedDrive) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -1,21 +1,21 @@
 """Permitted starts per hour of the motors: given by the manufacturer, or no-load starts of the catalogue reduced by
 inertia, load torque and load."""
 
-import math
 from collections.abc import Iterable, Iterator
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components import motor_starts
+from ptmcalc.components.motor_starts import no_load_speed
 from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.result import Found, LoadInfo, of
-from ptmcalc.laws import duty
 from ptmcalc.machines.conveyor.load_sharing import steady_forces
 from ptmcalc.machines.conveyor.model import belt_line, turns
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Run, Start
 from ptmcalc.machines.conveyor.start_case import StartCase
-from ptmcalc.machines.conveyor.starting.loads import no_load_speed, slip_heat_of
+from ptmcalc.machines.conveyor.starting.loads import slip_heat_of
 
 PERMITTED = LoadInfo("starts_permitted", "permitted starts per hour of the motor", units.RATIO, headline=False)
 
@@ -61,34 +61,15 @@ def permitted_starts(spec: Conveyor, scene: Start, case: StartCase) -> dict[str,
 
 def missing_keys(spec: Conveyor, name: str) -> tuple[KeyPath, ...]:
     """Keys without which the permitted starts of a drive are unknown."""
-    drive, path = spec.all_drives[name], (*spec.drive_path(name), "motor")
-    motor = drive.motor
-    if motor.starts_per_hour is not None:
-        return ()
-    if motor.no_load_starts is None or drive.fluid_coupling is not None:
-        return ((*path, "starts_per_hour"),)
-    keys = () if no_load_speed(motor) is not None else ((*path, "no_load_speed"),)
-    return keys if motor.rated_torque is not None else (*keys, *_rating_keys(drive, path))
-
-
-def _rating_keys(drive: PlacedDrive, path: KeyPath) -> tuple[KeyPath, ...]:
-    """Missing keys of the rated torque of a motor without a rating plate."""
-    if drive.motor.curve is not None:
-        return ((*path, "curve", "rated_torque"),)
-    return tuple((*path, key) for key in ("power", "speed") if getattr(drive.motor, key) is None)
+    drive = spec.all_drives[name]
+    return motor_starts.missing_keys(drive.motor, (*spec.drive_path(name), "motor"), drive.fluid_coupling is not None)
 
 
 def _reduced(spec: Conveyor, scene: Start, case: StartCase, name: str) -> Estimate:
     """No-load starts of the motors of a drive, reduced to the starts and the running of this conveyor."""
     motor = spec.all_drives[name].motor
-    fast, starts = filled(no_load_speed(motor)), filled(motor.no_load_starts)
-    cooling = duty.REST_COOLING[motor.cooling]
-    factor = duty.load_factor(running_load(spec, scene, name), filled(motor.constant_losses), cooling)
-    heat, alone = slip_heat_of(spec, scene, case, name, fast), filled(motor.inertia) * fast**2 / 2
-    if not math.isfinite(heat.value) or factor == 0:
-        return Estimate.exact(0.0)
-    low, value, high = (starts * factor * alone / max(one, alone) for one in (heat.high, heat.value, heat.low))
-    return Estimate(value, low, high, model=max(high - value, value - low))
+    heat = slip_heat_of(spec, scene, case, name, filled(no_load_speed(motor)))
+    return motor_starts.reduced_starts(motor, running_load(spec, scene, name), heat)
 
 
 def running_load(spec: Conveyor, scene: Start, name: str) -> float:
