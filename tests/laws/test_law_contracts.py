@@ -306,6 +306,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     loop_bounds.held_swing: [(*section, 37.0) for section in SECTIONS],
     loop_bounds.energy_of_rates: [(loop, share) for loop in LOOPS for share in (0.0, 0.3, 1.0)],
     loop_bounds.lowest_frequency_bound: [(loop,) for loop in LOOPS],
+    loop_bounds.drive_lead: [(loop, 0.4) for loop in LOOPS],
     loop_bounds.window_leak: [(3.0, 2.5), (0.1, 2.5)],
     pendulum.swing_frequency: [(7.0, 9.81)],
     pendulum.swing_period: [(7.0, 9.81, 0.0), (7.0, 9.81, 1.2)],
@@ -516,6 +517,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     equalising.equalising_ratio: [(6,)],
     equalising.equalising_acceleration: [(0.8, 0.4, 6)],
     chain_resonance.start_shares: [(loop, np.array([31.0, 74.0])) for loop in (LOOPS[0], LOOPS[2])],
+    chain_resonance.drive_mobilities: [(loop, np.array([31.0, 74.0])) for loop in (LOOPS[0], LOOPS[2])],
     chain_resonance.modal_tensions: [
         (loop, np.array([31.0, 74.0]), strand, np.array([0.0, 0.3])) for loop in LOOPS for strand in (RETURN, CARRY)
     ],
