@@ -237,7 +237,7 @@ class TailSprocket(Fragment):
     inertia: Annotated[Inertia | None, Assumed()] = None
     """on its own shaft, shaft included; 0 when left out"""
     driven: Literal["on", "off"] = "off"
-    """`on`: a second drive keeps it at the speed of the first; `drive` and `brake` are those of both together"""
+    """`on`: a second drive at constant speed"""
     phase: Annotated[Fraction | None, Setting("the worst phase when left out")] = None
     """phase of the link joints of a driven one, relative to the drive; the worst phase when left out"""
 

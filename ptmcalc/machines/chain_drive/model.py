@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from ptmcalc.base.memory import remembered
 from ptmcalc.base.span import KeyPath
-from ptmcalc.laws import belt_modes, chain_selection, held_strands, inertia, motor, sag, sprocket
-from ptmcalc.laws.held_strands import HeldStrands
+from ptmcalc.laws import belt_modes, chain_selection, inertia, motor, sag, sprocket
 from ptmcalc.laws.loop_bounds import LoopMasses
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Drive
@@ -373,14 +372,9 @@ def lines(line: ChainLine, spec: ChainDrive) -> tuple[parts.Line, ...]:
     return tuple(parts.Line(one.length, one.line_mass, one.stiffness) for one in strands)
 
 
-def has_driven_tail(spec: ChainDrive) -> bool:
-    """Whether another drive turns the tail, at the speed of the driving sprocket."""
-    return isinstance(spec.layout, ConveyorLayout) and spec.layout.tail.driven == "on"
-
-
 def ends_at_tail(spec: ChainDrive) -> bool:
     """Whether what vibrates ends at the other sprocket."""
-    return isinstance(spec.layout, TwoShafts) or has_driven_tail(spec)
+    return isinstance(spec.layout, TwoShafts) or spec.layout.tail.driven == "on"
 
 
 def undamped(spec: ChainDrive, scene: ChainScene, drive: float = math.inf) -> parts.Chain:
@@ -420,7 +414,7 @@ def natural_frequencies(spec: ChainDrive, scene: ChainScene, drive: float = math
     """The lowest natural circular frequencies of the chain, its sprocket held or its drive a mass at the chain, shape
     (count,) [rad/s]."""
     line = chain_line(spec, scene)
-    if has_driven_tail(spec):
+    if isinstance(spec.layout, ConveyorLayout) and spec.layout.tail.driven == "on":
         return _held_frequencies(line.working, drive, count)
     return np.array(of_loop(loop_masses(spec, scene, drive), line.takeup_mass, count))
 
@@ -439,9 +433,7 @@ def loop_masses(spec: ChainDrive, scene: ChainScene, drive: float = math.inf) ->
 
 @remembered(64)
 def of_loop(loop: LoopMasses, takeup_mass: float, count: int) -> tuple[float, ...]:
-    """Natural frequencies by `belt_modes` or `held_strands`, which the prices of all settings ask for over and over."""
-    if isinstance(loop, HeldStrands):
-        return tuple(held_strands.natural_frequencies(loop, count).tolist())
+    """`belt_modes.natural_frequencies`, which the prices of all settings ask for again and again."""
     return tuple(belt_modes.natural_frequencies(loop, takeup_mass, count).tolist())
 
 

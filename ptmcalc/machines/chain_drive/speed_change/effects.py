@@ -7,10 +7,9 @@ import numpy as np
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive import loops
-from ptmcalc.machines.chain_drive.loops import HeldStrands
-from ptmcalc.machines.chain_drive.model import chain_line, has_driven_tail
+from ptmcalc.machines.chain_drive.model import chain_line
 from ptmcalc.machines.chain_drive.spec import (
     ChainDrive,
     ChainScene,
@@ -24,10 +23,11 @@ from ptmcalc.machines.chain_drive.speed_change.teeth import curve_teeth, range_p
 from ptmcalc.machines.chain_drive.speed_change.tooth_passes import range_loads
 from ptmcalc.machines.chain_drive.starting import bounds as start_bounds
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS
-from ptmcalc.machines.chain_drive.starting.motion import StartCase, start_case, swinging_loop
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, light_return, start_case
 from ptmcalc.machines.chain_drive.starting.motor_force import stands_still
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
+from ptmcalc.machines.chain_drive.stopping.formulas import OF_STOP
 from ptmcalc.machines.chain_drive.stopping.motion import StopCase, extremes, stop_case
 from ptmcalc.machines.chain_drive.strength import safety
 from ptmcalc.spec.scene import Scene
@@ -93,7 +93,7 @@ def elastic_bound(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
 
     **Range** a taut chain that slides forward, any tail mass and jump of impedance, any internal damping; a take-up
     without mass. If the interval reaches below 0, the chain may go slack and no bound exists. No bound exists for a
-    start on a motor curve. A driven tail keeps the speed of the driving sprocket (`laws.held_strands`).
+    start on a motor curve or with a driven tail.
     **Error** a bound; it is attained at the entering strand with a constant tension of the leaving strand and without
     damping.
     **Source** derived in `laws.loop_bounds` (completeness of the modes, Cauchy-Schwarz, Dunkerley); a damped mode never
@@ -104,7 +104,7 @@ def elastic_bound(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
     case = start_case(spec, scene)
     if not _moves(spec, case):
         return {}
-    if case.follows_curve:
+    if case.follows_curve or _has_driven_tail(spec):
         return _anything(loads)
     intervals = start_bounds.enclosed(case)
     found = start_bounds.offsets(spec, case, intervals, loads)
@@ -120,6 +120,8 @@ def _of_stop(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
     """`elastic_bound` of a stop."""
     case = stop_case(spec, scene)
     given, found = extremes(spec, case), dict[str, Interval]()
+    if _has_driven_tail(spec):
+        return {name: ANYTHING for name in loads if name in OF_STOP}
     if "tension_min" in loads:
         top, known = min(case.line.ends), loads["tension_min"]
         low = given.lowest - known.low if given.lowest >= 0 else -math.inf  # slack, and caught again
@@ -136,16 +138,21 @@ def _of_stop(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
 
 def _overload(spec: ChainDrive, case: StopCase, load: Estimate) -> Interval:
     """What waves make of the tension that braking adds at the drive."""
-    if not case.line.fixed_length and not isinstance(case.masses(1.0), HeldStrands):
+    if not case.line.fixed_length:
         return Interval(0.0, load.high)
     a = load.value / case.line.moving_mass
     least, most = 0.0, 0.0
     for losses in (case.efficiency, 1 / case.efficiency):
-        loop = swinging_loop(spec, case.masses(losses))
+        loop = light_return(spec, case.masses(losses))
         for end in ((CARRY, 1.0), (RETURN, 0.0)):
-            r = abs(float(loops.quasi_static(loop, *end)))
-            least, most = max(least, r), max(most, r + float(loops.stray(loop, *end)))
+            r = abs(float(loop_bounds.quasi_static(loop, *end)))
+            least, most = max(least, r), max(most, r + float(loop_bounds.stray(loop, *end)))
     return Interval(min(a * least - load.low, 0.0), max(a * most - load.high, 0.0))
+
+
+def _has_driven_tail(spec: ChainDrive) -> bool:
+    tail = getattr(spec.layout, "tail", None)
+    return tail is not None and bool(tail.driven == "on")
 
 
 def _unless_taut(found: Offsets, loads: Loads) -> Offsets:
@@ -168,7 +175,7 @@ def modes_criterion(spec: ChainDrive, scene: Start) -> Criterion:
     """
     case = start_case(spec, scene)
     rest, _ = _behind_the_first(case)
-    whole = abs(float(loops.quasi_static(case.masses, CARRY, 1.0)))
+    whole = abs(float(loop_bounds.quasi_static(case.masses, CARRY, 1.0)))
     value = rest / whole if whole > 0 else math.inf
     meaning = "share of higher modes in the starting tension"
     return Criterion("n", value, MODES_THRESHOLD, meaning, "laws.chain_resonance")
@@ -177,8 +184,8 @@ def modes_criterion(spec: ChainDrive, scene: Start) -> Criterion:
 def _behind_the_first(case: StartCase) -> tuple[float, float]:
     """Bound of the parts of all modes but the first at the run-on [kg], and the second frequency [rad/s]."""
     w = natural_frequencies(case, _COUNTED)
-    gains = loops.modal_tensions(case.masses, w, CARRY, np.ones(1))[:, 0]
-    rest = float(loops.modal_rest(case.masses, w, CARRY, np.ones(1))[0])
+    gains = chain_resonance.modal_tensions(case.masses, w, CARRY, np.ones(1))[:, 0]
+    rest = float(chain_resonance.modal_rest(case.masses, w, CARRY, np.ones(1))[0])
     return float(np.abs(gains[1:]).sum()) + rest, float(w[1])
 
 
@@ -208,7 +215,7 @@ def modes_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
     strays = [one.stray + other.stray for one, other in zip(case.phases(first), case.phases(second), strict=True)]
     less = more = case.acceleration * rest * max(strays)
     if not case.line.fixed_length:
-        whole = float(loops.quasi_static(case.masses, CARRY, 1.0)) * case.acceleration
+        whole = float(loop_bounds.quasi_static(case.masses, CARRY, 1.0)) * case.acceleration
         reached = loads["tension_dynamic_start"].value / whole if whole > 0 else 0.0
         most = max(phase.high + phase.stray for phase in case.phases(second))
         more = min(more, case.acceleration * rest * max(most - reached, 0.0))
@@ -274,10 +281,7 @@ def _weight_numbers(spec: ChainDrive, scene: Start, case: StartCase) -> tuple[fl
     if mass == 0 or not _moves(spec, case):
         return 0.0, 0.0
     impedance = math.sqrt(case.line.back.line_mass * case.line.back.stiffness)
-    lowest = float(natural_frequencies(case, 1)[0])
-    if isinstance(case.masses, HeldStrands):  # of the return strand, which alone moves the weight
-        lowest = math.pi / 2 / case.masses.travel_time(RETURN)
-    kappa = mass / 4 * lowest / impedance
+    kappa = mass / 4 * float(natural_frequencies(case, 1)[0]) / impedance
     alone = _acceleration(spec, scene, case)
     alone *= 1 if case.imposed_speed else case.whole_mass / case.masses.drive_mass
     return kappa, alone / spec.gravity
@@ -342,7 +346,7 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
         P/S_static,   P of `passing.Passing.teeth_bound`;   infinite if the entering strand has no tension
 
-    **Range** any start and any range of speeds; infinite with a driven tail in a range of speeds and on a motor curve.
+    **Range** any start and any range of speeds; infinite with a driven tail.
     **Error** an upper bound.
     **Source** derived in `chain_start.passing_bound`; the threshold of 5 % is an engineering choice.
     """
@@ -353,12 +357,12 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
 
 def _teeth(spec: ChainDrive, scene: Start | SpeedRange) -> float:
-    """The bound of either scene [N]; unbounded for a driven tail in a range of speeds and on a motor curve."""
-    if isinstance(scene, SpeedRange):
-        return math.inf if has_driven_tail(spec) else range_passing(spec, scene).teeth_bound(spec)
-    case = start_case(spec, scene)
-    if has_driven_tail(spec) and case.follows_curve:
+    """The bound of either scene [N]; unbounded for a driven tail."""
+    if _has_driven_tail(spec):
         return math.inf
+    if isinstance(scene, SpeedRange):
+        return range_passing(spec, scene).teeth_bound(spec)
+    case = start_case(spec, scene)
     if not _moves(spec, case):
         return 0.0
     return curve_teeth(spec, scene) if case.follows_curve else start_passing(spec, scene).teeth_bound(spec)
@@ -372,8 +376,7 @@ def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Of
     On a motor curve P is the sum of the bounds for a drive whose torque does not depend on its speed, and for a drive
     whose speed does not change (`teeth.curve_teeth`).
 
-    **Range** a taut chain and a sprocket speed that only rises or only falls; with a driven tail unbounded in a range
-    of speeds and on a motor curve.
+    **Range** a taut chain and a sprocket speed that only rises or only falls; unbounded with a driven tail.
     **Error** a bound; see `chain_start.passing_bound`.
     **Source** variation of the input of every mode, derived.
     """

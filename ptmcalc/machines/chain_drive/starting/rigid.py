@@ -32,11 +32,10 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
         m a + W = e (M i/R - J (i/R)^2 a),   e = eta or 1/eta by the direction of the power
         J_red = J + m (R/i)^2/e,   t = (J_red/(M - W R/(e i))) w,   S = S_static + a r
 
-    m includes chain, load, tail and sprocket; R = z p/(2 pi). r is the mass accelerated by the entering strand
-    (gravity take-up), or this mass less its mean over the loop (screw take-up); with a driven tail, which keeps the
-    speed of the driving sprocket, half of the mass of the working strand. For an imposed speed a = V q'_max. A
-    star-delta starter, a soft starter or fluid couplings change M over speed and time. On a curve a is the largest
-    acceleration on the way to the operating speed.
+    m includes chain, load, tail and sprocket; R = z p/(2 pi). r is the mass accelerated by the entering strand (gravity
+    take-up), or this mass less its mean over the loop (screw take-up). For an imposed speed a = V q'_max. A star-delta
+    starter, a soft starter or fluid couplings change M over speed and time. On a curve a is the largest acceleration on
+    the way to the operating speed.
 
     **Range** any start; the gear losses are those at full torque.
     **Error** no error bar of its own except the quadrature error on a motor curve; the bounds of the effects cover

@@ -13,14 +13,7 @@ from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.chain_drive.holding.scenes import elsewhere
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import (
-    ChainLine,
-    FloatArray,
-    chain_line,
-    mean_arm,
-    natural_frequencies,
-    radius,
-)
+from ptmcalc.machines.chain_drive.model import ChainLine, FloatArray, chain_line, mean_arm, natural_frequencies, radius
 from ptmcalc.machines.chain_drive.spec import (
     ChainDrive,
     ChainScene,
@@ -68,8 +61,7 @@ def run(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) 
     after its delay. The tension added by braking is that of the permissible stopping distance, or that of the given
     brake torque.
 
-    **Range** any stop; infinite if nothing stops the motion. A driven tail keeps the speed of the driving sprocket, and
-    the brake acts on both of them together.
+    **Range** any stop; infinite if nothing stops the motion.
     **Error** none of its own; the bound of the wave effect covers the tensions added by waves.
     **Source** lecture notes Kramatorsk 2007 in the signed form (`laws.stopping`).
     """
@@ -189,16 +181,18 @@ def _held_together(found: list[tuple[Estimate, At]], of: Callable[..., float]) -
 def waves_valid(spec: ChainDrive, scene: Stopping) -> Criterion:
     """Whether there is a stop to compute: it ends, and not after ever so many swings.
 
-        n = f_1 t/1000 for a time t to rest; 1 where nothing stops it
+        n = f_1 t/1000 for a time t to rest; infinite for a driven tail
 
     **Range** any stop.
     **Error** exact.
     **Source** the waves of a stop are followed from the first moment to rest.
     """
-    time, _ = stop_case(spec, scene).rest()
-    if math.isinf(time):
-        return Criterion("n", 1.0, 1.0, "nothing stops the motion", "count")
-    value = time * float(natural_frequencies(spec, scene)[0]) / (2e3 * math.pi)
+    tail = getattr(spec.layout, "tail", None)
+    if tail is not None and tail.driven == "on":
+        value = math.inf
+    else:
+        time, _ = stop_case(spec, scene).rest()
+        value = math.inf if math.isinf(time) else time * float(natural_frequencies(spec, scene)[0]) / (2e3 * math.pi)
     return Criterion("n", value, 1.0, "oscillations of the chain before standstill, in thousands", "count")
 
 
