@@ -35,7 +35,6 @@ from ptmcalc.machines.conveyor.waves.cell_runs import (
 )
 from ptmcalc.machines.conveyor.waves.effects.moving_belt import belt_travel
 from ptmcalc.machines.conveyor.waves.unfinished_stop import failures_of, loads_so_far, open_end, unfinished
-from ptmcalc.numerics.belt.station import Track
 
 _SHORTER = 6
 """Attempts to end a window before a pulley loses its belt, each at 3/4 of the one before; a numerical choice. Six reach
@@ -44,11 +43,6 @@ _WORTH = 0.015
 """Belt speed relative to that of its slowest wave [1] from which on a plain start is simulated in cells. A numerical
 choice: below it the bound of convection is narrower than the error bar of the cells. A smaller value takes longer
 without a gain."""
-
-_SWINGS = 0.97
-"""Speed relative to that of steady running [1] above which belt and pulleys swing about it at the end of a start. An
-engineering choice: the rated slip of small motors and of droop comes to 3 %. A larger value reports more starts as
-unfinished; a smaller one accepts drives that fall back."""
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
@@ -107,7 +101,7 @@ def _ending(case: Moving, runs: Sequence[CellRun], slipping: bool) -> Ending | N
     course, line, row = run.ready.course, case.line, run.drawn.row
     middles = course.middles[: course.tail], course.middles[course.tail :] - line.back.length
     statics = [line.static(which, at / line.strand(which).length) for which, at in zip((0, 1), middles, strict=True)]
-    slowest = _speed_of(run.drawn.head, _goal(case), math.ceil(line.contour_time / course.step))
+    slowest = min(run.drawn.head[-1].belt, *run.drawn.head[-1].drums)
     end = ending(_goal(case), slowest, slipping, replace(row, pulls=row.pulls - np.concatenate(statics)), course.tail)
     if not end.state and _floats(case):
         state = f"belt at {slowest:.3g} m/s, the head pulley follows the torque of a drive at the tail"
@@ -125,14 +119,6 @@ def _floats(case: Moving) -> bool:
     followed = leaders(drives)
     at_head = [followed.get(name, name) for name, drive in drives.items() if drive.at == "head"]
     return bool(case.curves) and all(drives[name].at == "tail" for name in at_head)
-
-
-def _speed_of(head: Track, goal: float, last: int) -> float:
-    """Speed of the slowest of belt and pulleys at the end of a start [m/s], or the largest that each of them had in the
-    last steps, where it swings about the speed of steady running."""
-    both = np.column_stack([head.belt[-last:], head.drums[-last:]])
-    now = float(both[-1].min())
-    return now if now < _SWINGS * goal else float(both.max(axis=0).min())
 
 
 def _goal(case: Moving) -> float:
