@@ -31,6 +31,8 @@ class Use:
     """types of the scenes; empty for all"""
     loads: frozenset[str] = frozenset()
     """families of the loads; empty for all"""
+    limits_only: bool = False
+    """only the limits of checks of those loads depend on it, no load does"""
 
 
 EVERYWHERE = Use()

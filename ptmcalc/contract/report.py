@@ -217,6 +217,8 @@ class AssumedReport:
     """types of the scenes that use it; empty for all"""
     loads: frozenset[str] = frozenset()
     """families of the loads that depend on it; empty for all"""
+    limits_only: bool = False
+    """whether only limits of checks of those loads depend on it"""
 
     def read_in(self, scene: Scene) -> bool:
         """Whether a scene reads the value."""
@@ -226,6 +228,10 @@ class AssumedReport:
         """Whether a check can depend on the value."""
         scenes = not self.scenes or not self.scenes.isdisjoint(map(type_of, check.scenes))
         return scenes and (not self.loads or not self.loads.isdisjoint(map(family, check.loads)))
+
+    def changes(self, loads: Iterable[str]) -> bool:
+        """Whether one of these loads can depend on the value."""
+        return not self.limits_only and (not self.loads or not self.loads.isdisjoint(map(family, loads)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -265,9 +265,11 @@ def _flips(
     """Verdicts that change if an assumed value is at an end of its interval.
 
     A passing check passes only if it does so at both ends; a failing check fails unless it passes at an end. An open
-    check, or one already changed by an earlier end, is not evaluated again.
+    check, or one already changed by an earlier end, is not evaluated again, and runs whose loads do not depend on the
+    value are not made again.
     """
     rulings = dict(_by_key(made, settled))
+    runs = {one.plan.scene.label: one.runs for one in settled}
     base = {key: ruling.verdict for key, ruling in rulings.items()}
     found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
     for value, end, other in variants(spec, assumed):
@@ -280,7 +282,8 @@ def _flips(
         if not left:
             continue
         again = plan(kind, other, [one for one in other.all_scenes if one.label in left])
-        ends = [purse.settle(kind, other, one, left[one.scene.label]) for one in again.scenes]
+        same = {label: [run for run in runs[label] if not value.changes(run.result.loads)] for label in left}
+        ends = [purse.settle(kind, other, one, left[one.scene.label], same[one.scene.label]) for one in again.scenes]
         found |= {
             key: (value, end, ruling.verdict)
             for key, ruling in _by_key(again, ends)

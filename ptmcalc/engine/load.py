@@ -199,7 +199,8 @@ def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedRe
 def _report(
     path: KeyPath, value: float, quantity: Quantity, interval: Interval, source: str, use: Use
 ) -> AssumedReport:
-    return AssumedReport(path, value, quantity, interval, source, frozenset(map(type_of, use.scenes)), use.loads)
+    scenes = frozenset(map(type_of, use.scenes))
+    return AssumedReport(path, value, quantity, interval, source, scenes, use.loads, use.limits_only)
 
 
 def _kind_of(document: Document, data: Mapping[str, Any]) -> tuple[AnyKind | None, list[Diagnostic]]:

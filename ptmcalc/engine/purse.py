@@ -1,13 +1,13 @@
 """What a file may cost: a limit of predicted work for each scene, and one for all of them and what hangs on them."""
 
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.plan import ScenePlan
 from ptmcalc.engine.run import settle
-from ptmcalc.engine.settled import Settled
+from ptmcalc.engine.settled import Run, Settled
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.text.document import Document
 
@@ -41,10 +41,11 @@ class FilePurse:
         spec: MachineSpec,
         scene: ScenePlan,
         verdicts: Container[tuple[str, str]] | None = None,
+        known: Sequence[Run] = (),
     ) -> Settled:
         """A scene, as far as what is left goes."""
         most = self.most
-        settled = settle(kind, spec, scene, budget=most, verdicts=verdicts)
+        settled = settle(kind, spec, scene, budget=most, verdicts=verdicts, known=known)
         if most < self.scene and settled.next_rung is not None:
             self.short[scene.scene.label] = None
         self.left -= settled.spent

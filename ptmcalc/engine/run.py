@@ -1,6 +1,6 @@
 """Plan -> results: run the solvers of a scene in order of cost, only while something is undecided."""
 
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Sequence
 from dataclasses import replace
 
 from ptmcalc.base.diagnostic import Verdict
@@ -35,13 +35,16 @@ def settle(
     only: AnyCheck | None = None,
     verdicts: Container[tuple[str, str]] | None = None,
     until: Callable[[Rung], bool] = lambda rung: True,
+    known: Sequence[Run] = (),
 ) -> Settled:
     """Run the cheapest rung, then the next that can help, until every verdict and the accuracy asked for stand.
 
     `only` settles one check and nothing else, `verdicts` those of some checks, by code and element: neither loads that
-    none of them reads nor the accuracy asked for; `until` limits the rungs that may run (for predictions).
+    none of them reads nor the accuracy asked for; `until` limits the rungs that may run (for predictions); `known` are
+    runs that were made and would have the same results.
     """
     settled = Settled(scene)
+    results = {_same(run.rung): run.result for run in known}
     whole = only is None and verdicts is None
     if verdicts is not None:
         spec = spec.model_copy(update={"accuracy": None})
@@ -67,7 +70,7 @@ def settle(
         settled.next_rung = following
         if following is not None and until(following) and settled.spent - shown_for + following.seconds <= budget:
             waiting.remove(following)
-            _climb(settled, spec, following)
+            _climb(settled, spec, following, results.get(_same(following)))
             _relate(kind, spec, settled)
             continue
         if not settled.runs:
@@ -121,9 +124,14 @@ def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
         return None
 
 
-def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> None:
-    """Run a rung and keep every load it knows better."""
-    scene, result = settled.plan.scene, _made(settled, spec, rung)
+def _same(rung: Rung) -> tuple[str, frozenset[str], int]:
+    """What identifies a run of a scene."""
+    return rung.solver.name, rung.carried, rung.level
+
+
+def _climb(settled: Settled, spec: MachineSpec, rung: Rung, known: Result | None) -> None:
+    """Run a rung, unless its result is known, and keep every load it knows better."""
+    scene, result = settled.plan.scene, known or _made(settled, spec, rung)
     if result is None:
         return
     estimates = widen(settled.plan, spec, rung, result)

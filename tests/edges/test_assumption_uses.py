@@ -39,26 +39,32 @@ def changed(loaded: Loaded) -> list[str]:
             moved = next(one for one in other.all_scenes if one.label == scene.label)
             unused = _unused(assumed, scene, of_checks)
             wrong += [
-                f"{dotted(assumed.path)} at {end}: {scene.label}: {name}"
-                for name, known in _loads(kind, other, moved).items()
-                if family(name) in unused and known != base.get(name)
+                f"{dotted(assumed.path)} at {end}: {scene.label}: {name} of {run}"
+                for (run, name), known in _loads(kind, other, moved).items()
+                if family(name) in unused and (run or not assumed.limits_only)
+                if known != base.get((run, name), known if run else "")
             ]
     return wrong
 
 
 def _unused(assumed: AssumedReport, scene: Scene, loads: set[str]) -> set[str]:
     """Families of the loads that the value is said not to change in a scene."""
-    return (
-        loads - assumed.loads
-        if assumed.read_in(scene) and assumed.loads
-        else set()
-        if assumed.read_in(scene)
-        else loads
-    )
+    if not assumed.read_in(scene):
+        return loads
+    if assumed.limits_only:
+        return loads
+    return loads - assumed.loads if assumed.loads else set()
 
 
-def _loads(kind: AnyKind, spec: MachineSpec, scene: Scene) -> dict[str, str]:
-    return {name: str(best.estimate) for name, best in settled(spec, kind, scene, budget=SECONDS).loads.items()}
+def _loads(kind: AnyKind, spec: MachineSpec, scene: Scene) -> dict[tuple[str, str], str]:
+    """Each load as it is known best, and that of each run by the run's solver, effects and level; limits decide which
+    runs are made."""
+    found = settled(spec, kind, scene, budget=SECONDS)
+    loads = {("", name): str(best.estimate) for name, best in found.loads.items()}
+    for run in found.runs:
+        named = f"{run.rung.solver.name}, {sorted(run.rung.carried)}, level {run.rung.level}"
+        loads |= {(named, name): str(estimate) for name, estimate in run.estimates.items()}
+    return loads
 
 
 def files(kind: AnyKind) -> Iterator[Loaded]:

@@ -277,7 +277,7 @@ _OF_THE_CONVERTERS: Assumption[Conveyor] = Assumption(
     lambda spec: _LOST * _braking_power(spec) if _lowers(spec) else None,
     lambda spec: Interval(_LOST * _braking_power(spec), _braking_power(spec)),
     "without brake resistor or feedback 3 % of the motors' power, lost in motor and converter; with them all of it",
-    Use(loads=frozenset({BRAKING_POWER})),
+    Use(loads=frozenset({BRAKING_POWER}), limits_only=True),
 )
 
 _OF_THE_TAIL: tuple[Assumption[Conveyor], ...] = (
@@ -313,7 +313,7 @@ _OF_THE_SPLICE: Assumption[Conveyor] = Assumption(
     lambda spec: _FATIGUE[_carcass(spec)][0] if spec.belt.splice is not None else None,
     lambda spec: Interval(*_FATIGUE[_carcass(spec)][1:]),
     "DIN 22101:2011 as quoted by belt manufacturers: 0.45 steel cord, 0.30 to 0.35 stepped textile splices",
-    Use(loads=frozenset({"belt_tension_width_max", "tension_max"})),
+    Use(loads=frozenset({"belt_tension_width_max", "tension_max"}), limits_only=True),
 )
 
 _SHARES = {3: (0.675, 0.65, 0.70), 2: (0.5, 0.5, 0.55)}
@@ -366,6 +366,7 @@ _OF_THE_LOAD: tuple[Assumption[Conveyor], ...] = (
         lambda spec: math.radians(15) if spec.load.density is not None else None,
         lambda spec: Interval(math.radians(10), math.radians(20)),
         "ISO 5048 and CEMA: 10 to 20 deg for most materials in motion, 5 deg for free-flowing ones",
+        Use(loads=frozenset({"section_fill", LEAST, MOST})),  # and limits of the drift in curves
     ),
 )
 
@@ -392,7 +393,7 @@ _OF_CURVES: Assumption[Conveyor] = Assumption(
     _edge,
     lambda spec: Interval(*(filled(_edge(spec, 1 + part)) for part in (-_EDGE_TOLERANCE, _EDGE_TOLERANCE))),
     "ISO 5048: usable width 0.9 B - 50 mm; ISO 1537: wing rolls longer than the belt on them by 0.05 B + 25 mm",
-    Use(loads=frozenset({LEAST, MOST})),
+    Use(loads=frozenset({LEAST, MOST}), limits_only=True),
 )
 
 

@@ -20,7 +20,25 @@ from ptmcalc.machines.crane.stacking.scenes import (
 )
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
+_OF_ARMS = Use(
+    loads=frozenset(
+        {
+            "bridge_stress",
+            "column_stress",
+            "jamming",
+            "rest_deflection",
+            "roller_load",
+            "rope_safety",
+            "stability_reserve",
+        }
+    )
+)
+"""Loads that depend on the places of carriage, cab and load beside the mast."""
 USES: Mapping[str, Use] = {
+    **dict.fromkeys(
+        ("cab.arm", "cab.arm_across", "carriage.own_arm", "carriage.own_arm_across", "carriage.load_arm_across"),
+        _OF_ARMS,
+    ),
     "carriage.rollers.lever_arm": Use(scenes=frozenset({HoistScene})),
     "carriage.rollers.pin_friction": Use(scenes=frozenset({HoistScene})),
     "base.height": Use(loads=frozenset({"stability_reserve"})),

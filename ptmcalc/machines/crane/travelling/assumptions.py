@@ -15,7 +15,7 @@ _HEAD = 0.05
 _WIDE = 1.5
 """Wear that is reckoned with at most, over that of the standards."""
 _STEEL = 7850.0  # kg/m^3
-_OF_SKEWING = Use(scenes=frozenset({Skew}))
+_OF_SKEWING = Use(frozenset({Skew}), frozenset({"skew_force"}))
 USES: Mapping[str, Use] = {"guide.tolerance": _OF_SKEWING, "guide.wear": _OF_SKEWING}
 
 
