@@ -23,7 +23,7 @@ from ptmcalc.laws import motor
 from ptmcalc.spec.fields import PositiveAngularSpeed, PositiveInertia, PositivePower, PositiveRatio
 from ptmcalc.spec.fragment import Conflict, Given, together
 from ptmcalc.spec.machine import MachineSpec
-from ptmcalc.spec.optional import Assumed, Limit, OneOf
+from ptmcalc.spec.optional import Assumed, Checked, OneOf
 
 
 class PlateMotor(MotorBase):
@@ -34,7 +34,7 @@ class PlateMotor(MotorBase):
 
     inertia: Annotated[PositiveInertia | None, Assumed()] = None
     """rotor of one motor; that of typical motors is assumed where only the rating plate is given"""
-    power: Annotated[PositivePower | None, Limit()] = None
+    power: Annotated[PositivePower | None, Checked()] = None
     """rated power of one motor; with `speed` or `poles` the rating plate of a cage motor, which gives its curve"""
     speed: Annotated[PositiveAngularSpeed | None, Assumed()] = None
     """rated speed; compared with machine speed, ratio and pulley, drum or sprocket; that of typical motors is assumed

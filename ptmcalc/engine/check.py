@@ -14,6 +14,7 @@ from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
 from ptmcalc.base.errors import NumericsError, UsageError
 from ptmcalc.base.span import KeyPath, Span, dotted
 from ptmcalc.base.units import show
+from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import (
@@ -187,10 +188,20 @@ def _conflicts(
     return tuple(refused(kind, spec, made.scenes, loaded.document, whole=not options.scenes))
 
 
-def _again(options: Options, loaded: Loaded, scenes: tuple[str, ...], most: float) -> FileReport:
-    """The check of a changed file, without a search for repairs."""
-    plain = replace(options, histories=False, courses=False, figures=False, ledger=False, repairs=False)
-    return check(loaded, replace(plain, scenes=scenes, budget=most))
+def _again(
+    options: Options, loaded: Loaded, one: AnyCheck, scenes: tuple[str, ...], most: float
+) -> tuple[list[Verdict], float]:
+    """The verdicts of one check in a changed file, and the predicted seconds of its runs; none if it is invalid."""
+    kind, spec, made = loaded.kind, loaded.spec, planned_for(loaded, replace(options, scenes=scenes))
+    if kind is None or spec is None or made is None:
+        return [], 0.0
+    if any(found.severity is Severity.ERROR for found in _conflicts(loaded, kind, spec, made, options)):
+        return [], 0.0
+    purse = FilePurse(most)
+    settled = [purse.settle(kind, spec, scene, {(one.code, one.element)}) for scene in made.scenes]
+    flips = _flips(kind, spec, made, settled, loaded.assumed, purse)
+    verdicts = [Verdict.UNDECIDED if key in flips else ruling.verdict for key, ruling in _by_key(made, settled)]
+    return verdicts, sum(scene.spent for scene in settled)
 
 
 def _nothing_checked(loaded: Loaded, scenes: Sequence[SceneReport]) -> Iterator[Diagnostic]:

@@ -10,7 +10,7 @@ from ptmcalc.base.errors import UsageError
 from ptmcalc.base.span import KeyPath, dotted
 from ptmcalc.base.units import RATIO, show
 from ptmcalc.contract.check import AnyCheck
-from ptmcalc.contract.report import FileReport, Repair
+from ptmcalc.contract.report import Repair
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, changed, measure_at
 from ptmcalc.engine.purse import FilePurse
@@ -20,8 +20,9 @@ from ptmcalc.spec.optional import Limit, declaration_of
 from ptmcalc.spec.scene import Scene
 from ptmcalc.spec.shape import keys_of
 
-Again = Callable[[Loaded, tuple[str, ...], float], FileReport]
-"""A check of a changed file in some scenes, with so many predicted seconds at most for each."""
+Again = Callable[[Loaded, AnyCheck, tuple[str, ...], float], tuple[list[Verdict], float]]
+"""The verdicts of a check of a changed file in some scenes, with so many predicted seconds at most for each, and the
+predicted seconds of its runs."""
 Found = tuple[Repair | None, str]
 """A repair, or what was tried without one."""
 
@@ -86,10 +87,8 @@ class Repairs:
 
     def _passes_with(self, path: KeyPath, value: float, wanted: AnyCheck, labels: tuple[str, ...]) -> bool:
         """Whether the file with another value at a key passes a check in these scenes."""
-        report = self.again(changed(self.loaded, path, value), labels, self.purse.most)
-        name = (wanted.code, wanted.element)
-        self.purse.left -= sum(one.predicted_seconds for scene in report.scenes for one in scene.solvers)
-        verdicts = [one.verdict for _, one in report.judgements if (one.code, one.element) == name]
+        verdicts, spent = self.again(changed(self.loaded, path, value), wanted, labels, self.purse.most)
+        self.purse.left -= spent
         return bool(verdicts) and all(verdict is Verdict.PASS for verdict in verdicts)
 
 

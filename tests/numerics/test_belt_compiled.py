@@ -18,7 +18,7 @@ from ptmcalc.components.motor import AnyMotor
 from ptmcalc.numerics.belt import compiled
 from ptmcalc.numerics.belt.compiled import OverTime
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
-from ptmcalc.numerics.belt.curve import MotorForce
+from ptmcalc.numerics.belt.curve import CurveStage, MotorForce
 from ptmcalc.numerics.belt.give import Give, Rubber
 from ptmcalc.numerics.belt.march import Drawn, Until, march, place_at
 from ptmcalc.numerics.belt.station import Drum, Seen, Station, TakeUp
@@ -335,3 +335,33 @@ def test_a_library_of_another_platform_is_one_sentence(monkeypatch: pytest.Monke
     (tmp_path / "libbelt.so").write_text(compiled.checksum(compiled.SOURCE), "utf-8")
     with pytest.raises(UsageError, match="not usable"):
         belt(Drum("drum", 1e3))
+
+
+# -- rigid start -----------------------------------------------------------------------------------------------------
+
+
+def test_a_rigid_start_on_straight_motor_curves_has_its_closed_form() -> None:
+    """m v' = A - B v - W of two drives: v = v_e (1 - exp(-t/T)), T = m/B; the second is late by its delay."""
+    line = CurveStage(((0.0, 900.0), (150.0, 300.0)), extends=True)
+    both = MotorForce((line,), 50.0, 60.0, 60.0), MotorForce((line,), 50.0, 30.0, 30.0, delay=0.8, off=math.inf)
+    mass, resistance, goal = 4e4, 2e4, 1.2
+    force, slope = 900.0 * 60.0, 4.0 * 50.0 * 60.0
+    late = 0.8
+    first = mass / slope
+    ends = (force - resistance) / slope
+    speed = ends * (1 - math.exp(-late / first))
+    way = ends * (late - first * (1 - math.exp(-late / first)))
+    second = mass / (1.5 * slope)
+    last = (1.5 * force - resistance) / (1.5 * slope)
+    more = second * math.log((last - speed) / (last - goal))
+    way += last * more - (last - speed) * second * (1 - math.exp(-more / second))
+    step = 0.001
+    time, went, steady = compiled.start_on_curves(both, resistance, mass, goal, 1.5, step, 100_000)
+    assert time == pytest.approx(late + more, rel=2e-4)
+    assert went == pytest.approx(way, rel=4e-4)
+    assert steady == pytest.approx(late + second * math.log((last - speed) / (last - 1.5)), abs=2 * step)
+
+
+def test_a_rigid_start_that_does_not_get_there_ends_with_its_steps() -> None:
+    weak = MotorForce((CurveStage(((0.0, 100.0),)),), 50.0, 60.0, 60.0)
+    assert compiled.start_on_curves((weak,), 1e4, 1e4, 1.0, 1.0, 0.01, 100) == pytest.approx((1.0, 0.0, 1.0))

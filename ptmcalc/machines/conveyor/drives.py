@@ -21,7 +21,7 @@ from ptmcalc.machines.conveyor.model import (
 )
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, PlacedDrive, Run, Start
-from ptmcalc.numerics.belt.compiled import forces
+from ptmcalc.numerics.belt.compiled import forces, start_on_curves
 from ptmcalc.numerics.belt.curve import CurveStage, MotorForce
 
 _NEARLY, _LEAST_UP_TO = 0.98, 0.9
@@ -244,32 +244,18 @@ def rigid_curve_start(
     """When the rigid body reaches rated speed, or nearly the speed at which its motors' curves leave it, its way by
     then, and when it has nearly that last speed, by Heun's rule; zeros where it never gets away."""
     mass, resistance = moving_mass(line), line.static_resistance + line.tail_pull
-
-    def rate(time: float, speed: float) -> float:
-        return (sum(curve(time, speed)[0] for curve in curves.values()) - resistance) / mass
-
     speeds = np.linspace(0.0, line.speed, 201)
-    least = min(rate(_LATE_STAGE, speed) for speed in speeds)
-    settles = next((speed for speed in speeds if rate(_LATE_STAGE, speed) <= 0), line.speed)
+    late = np.full(len(speeds), _LATE_STAGE)
+    rates = (np.sum([forces(curve, late, speeds) for curve in curves.values()], axis=0) - resistance) / mass
+    least = float(rates.min())
+    settles = float(speeds[rates <= 0][0]) if least <= 0 else line.speed
     goal = line.speed if least > 0 else _NEARLY * settles
     if goal <= 0:
         return 0.0, 0.0, 0.0
     steady = goal if least <= 0 else max(_SETTLED * _steady_speed(line, curves, resistance), goal)
-    typical = float(np.mean([max(rate(_LATE_STAGE, speed), 0.0) for speed in speeds if speed <= goal]))
+    typical = float(np.maximum(rates[speeds <= goal], 0.0).mean())
     step = goal / typical / (steps / 10)
-    time = speed = way = 0.0
-    reached: tuple[float, float] | None = None
-    for _ in range(20 * steps):
-        first = rate(time, speed)
-        second = rate(time + step, max(speed + first * step, 0.0))
-        new = max(speed + (first + second) / 2 * step, 0.0)
-        if reached is None and new >= goal:
-            part = (goal - speed) / (new - speed) * step
-            reached = time + part, way + (speed + goal) / 2 * part
-        if reached is not None and new >= steady:
-            return (*reached, time + step)
-        way, time, speed = way + (speed + new) / 2 * step, time + step, new
-    return (*(reached or (time, way)), time)
+    return start_on_curves(tuple(curves.values()), resistance, mass, goal, steady, step, 20 * steps)
 
 
 def _steady_speed(line: BeltLine, curves: Mapping[str, MotorForce], resistance: float) -> float:

@@ -171,7 +171,7 @@ def library() -> ctypes.CDLL:
         getattr(found, f"belt_{name}").restype = _WHOLE
     for name in ("velocity", "given", "energy", "force"):
         getattr(found, f"belt_{name}").restype = _REAL
-    for name in ("hang", "carry", "start", "exponential", "forces"):
+    for name in ("hang", "carry", "start", "exponential", "forces", "rigid_start"):
         getattr(found, f"belt_{name}").restype = None
     for name, kinds in (
         ("advance", [_ADDRESS, *[_REAL] * 4]),
@@ -187,6 +187,7 @@ def library() -> ctypes.CDLL:
         ("start", [_ADDRESS]),
         ("exponential", [_REAL, _ADDRESS]),
         ("forces", [_ADDRESS, _WHOLE, *[_ADDRESS] * 3]),
+        ("rigid_start", [_ADDRESS, _WHOLE, *[_REAL] * 5, _WHOLE, _ADDRESS]),
     ):
         getattr(found, f"belt_{name}").argtypes = kinds
     return found
@@ -211,6 +212,43 @@ def forces(given: MotorForce, times: FloatArray, speeds: FloatArray) -> FloatArr
     at, turning = (np.ascontiguousarray(values, float) for values in (times, speeds))
     library().belt_forces(address_of(law), at.size, address(at), address(turning), address(found))
     return found
+
+
+def start_on_curves(
+    curves: Sequence[MotorForce],
+    resistance: float,
+    mass: float,
+    goal: float,
+    steady: float,
+    step: float,
+    steps: int,
+) -> tuple[float, float, float]:
+    """A rigid belt that its motors start, by Heun's rule with equal steps.
+
+        m v' = sum F(t, v) - W,   v >= 0
+
+    Args:
+        curves: motors of the drives.
+        resistance: W [N].
+        mass: m [kg].
+        goal, steady: speeds that are looked for [m/s].
+        step: length of a step [s].
+        steps: most steps.
+
+    Returns:
+        When the belt has the speed `goal` [s], how far it went by then [m], and the end of the step at which it has
+        `steady` [s]; the end where it does not get there.
+
+    **Error** of second order: half the step leaves a quarter of it.
+    """
+    laws = Laws()
+    made = (Law * len(curves))(*map(laws.of_speed, curves))
+    found = np.zeros(3)
+    library().belt_rigid_start(
+        address_of(made), len(curves), resistance, mass, goal, steady, step, steps, address(found)
+    )
+    time, way, end = found.tolist()
+    return time, way, end
 
 
 def check(fault: int, time: float, raised: Sequence[BaseException] = ()) -> None:

@@ -331,6 +331,39 @@ SHARED void belt_forces(const Law *law, int64_t count, const double *times, cons
         found[i] = on_curve(law->curve, times[i], speeds[i], &slope);
 }
 
+/* Acceleration of a rigid belt by the force of all motors together. */
+static double rigid_rate(const Law *laws, int64_t count, double time, double speed, double resistance, double mass)
+{
+    double pulls = 0.0, slope;
+    for (int64_t i = 0; i < count; i++)
+        pulls += on_curve(laws[i].curve, time, speed, &slope);
+    return (pulls - resistance) / mass;
+}
+
+/* A rigid belt that its motors start, by Heun's rule with equal steps; it does not run back. Found are the time at which
+   it has the speed `goal`, its way by then, and the time of the step at which it has `steady`. */
+SHARED void belt_rigid_start(const Law *laws, int64_t count, double resistance, double mass, double goal, double steady,
+                             double step, int64_t steps, double *found)
+{
+    double time = 0.0, speed = 0.0, way = 0.0;
+    int reached = 0;
+    for (int64_t k = 0; k < steps; k++) {
+        double first = rigid_rate(laws, count, time, speed, resistance, mass);
+        double second = rigid_rate(laws, count, time + step, most(speed + first * step, 0.0), resistance, mass);
+        double new = most(speed + (first + second) / 2 * step, 0.0);
+        if (!reached && new >= goal) {
+            double part = (goal - speed) / (new - speed) * step;
+            reached = 1, found[0] = time + part, found[1] = way + (speed + goal) / 2 * part;
+        }
+        way += (speed + new) / 2 * step, time += step, speed = new;
+        if (reached && new >= steady)
+            break;
+    }
+    if (!reached)
+        found[0] = time, found[1] = way;
+    found[2] = time;
+}
+
 /* Force of a drive at its own speed, and its slope. One that follows another has that of the leader's speed: the belt's
    as long as both go with it at one station, else the one that the leader had at the last step. */
 static double force_of(const Drum *drum, double time, double speed, double *slope, Station *s)
