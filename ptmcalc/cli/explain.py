@@ -242,6 +242,12 @@ def _finding(code: str, text: CodeText) -> Explanation:
     return Explanation(code, text.title, "", tuple(parts))
 
 
+_OF_HAZARDS = (
+    "If it fails, it stands before failed checks of heat, wear, sway and times: a part breaks or tips, a load drops, or"
+    " the machine slips, goes slack, runs back or does not stop in time."
+)
+
+
 def _check(whole: AnyKind, kinds: Sequence[AnyKind], check: AnyCheck) -> Explanation:
     scenes = ", ".join(sorted(scene.model_fields["type"].default for scene in check.scenes))
     value = [Part("Value", _doc(check.value))] if check.value and check.value.__doc__ else []
@@ -252,6 +258,7 @@ def _check(whole: AnyKind, kinds: Sequence[AnyKind], check: AnyCheck) -> Explana
         *_formula("Formula", check.formula),
         *_symbols(kinds[0], check.code, of_check(check)),
         Part("Reads", ", ".join(check.loads)),
+        *([Part("Order in reports", _OF_HAZARDS)] if check.hazard else []),
         *value,
         Part("Limit", _doc(check.limit)),
         Part("Source", check.source),

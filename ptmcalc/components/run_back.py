@@ -112,6 +112,7 @@ def rollback_check(
     backstop that is absent."""
     check: Check[S, C] = Check(
         code=code,
+        hazard=True,
         title=f"{part} rollback torque",
         question=f"Is the rollback torque of the stopped loaded {part} held by friction or the backstop?",
         failure="rollback torque exceeds the permissible backstop torque",

@@ -140,6 +140,7 @@ def steady_reserve_check(code: str, kind: SteadyMotors[S, C]) -> Check[S, C]:
     pull = "By their curves, all motors together pull" if kind.several else "By their curve, the motors pull"
     check: Check[S, C] = Check(
         code=code,
+        hazard=True,
         title="motor torque reserve, steady running",
         question=f"Do the motors pull the {pulled} at its speed, or hold the load that drives it?",
         failure="load exceeds the motor torque",

@@ -81,6 +81,9 @@ class Check(Generic[S, C]):
     """quantity of the value; that of the first load when left out"""
     types: frozenset[str] = frozenset()
     """types of the kind that the check applies to; empty for all types with one of its scenes"""
+    hazard: bool = False
+    """True if a failed check means that a part breaks or tips, a load drops, or the machine slips, goes slack, runs
+    back or does not stop in time; reports list it before what heats, wears, sways or takes long"""
 
     def applies_to(self, scene: Scene) -> bool:
         """True if the check applies to this type of scene."""

@@ -144,6 +144,8 @@ class Judgement:
     """the loads that the check used"""
     baseline: bool = False
     """True if a baseline waives it, not the file"""
+    hazard: bool = False
+    """True if a part breaks, a load drops, or the machine slips, runs back or does not stop in time where it fails"""
 
 
 @dataclass(frozen=True, slots=True)

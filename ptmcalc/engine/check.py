@@ -472,6 +472,7 @@ class _Assembly:
             repair=repair,
             tried=tried,
             loads=check.loads,
+            hazard=check.hazard,
         )
 
     def _health(self) -> Mapping[str, float]:

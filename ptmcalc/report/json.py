@@ -310,6 +310,8 @@ def _check(judgement: Judgement) -> dict[str, Any]:
     }
     if value and not math.isfinite(value.value):
         entry["unbounded"] = True
+    if judgement.hazard:
+        entry["hazard"] = True
     if judgement.element:
         entry["element"] = judgement.element
     if judgement.meaning:

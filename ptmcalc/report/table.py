@@ -249,22 +249,35 @@ def _checks(console: Console, report: FileReport, rows: Sequence[Row], *, edge: 
     styles = [STYLE[row.judgement.verdict.value] for row in rows]
     headings, cells = _in_columns(rows, edge, console.width)
     put(console, fill(new_table("Checks", *headings, edge=edge), cells, console.width, styles))
-    lines = []
-    for index, (scene, judgement) in enumerate((row.scene, row.judgement) for row in rows):
-        remark = words.remark(judgement)
-        name = " ".join(filter(None, (judgement.code, judgement.element, scene)))
-        told = f" {name}: "
-        if judgement.verdict is not Verdict.PASS and index:  # the first stands above everything
-            told += f"{_governed(report, judgement)}{'; ' * bool(remark)}{remark}"
-        elif judgement.verdict is Verdict.PASS and remark and edge:
-            told += remark
-        else:
-            continue
-        lines.append(Text.assemble((_verdict(judgement), styles[index]), told))
-    for line in lines:
-        tell(console, line)
+    lines = _remarks(report, rows, edge)
+    for (verdict, style, remark), names in lines.items():
+        tell(console, Text.assemble((verdict, style), f" {', '.join(names)}: {remark}"))
     if lines:
         console.print()
+
+
+def _remarks(report: FileReport, rows: Sequence[Row], edge: bool) -> dict[tuple[str, str, str], list[str]]:
+    """What is said below the table, and of which checks: each cause once. The first one stands above everything."""
+    lines: dict[tuple[str, str, str], list[str]] = {}
+    first = ""
+    for index, row in enumerate(rows):
+        judgement, remark = row.judgement, words.remark(row.judgement)
+        bad = judgement.verdict is not Verdict.PASS
+        if not bad and not (remark and edge):
+            continue
+        told = f"{_governed(report, judgement)}{'; ' * bool(remark)}{remark}" if bad else remark
+        if bad and not index:
+            first = told
+            continue
+        if bad and told == first:
+            told = f"key and cause as of {_name(rows[0])}"
+        lines.setdefault((_verdict(judgement), STYLE[judgement.verdict.value], told), []).append(_name(row))
+    return lines
+
+
+def _name(row: Row) -> str:
+    """Code, part and scenes of a verdict."""
+    return " ".join(filter(None, (row.judgement.code, row.judgement.element, row.scene)))
 
 
 _TITLE = 24

@@ -180,9 +180,15 @@ def place(span: Span | None) -> str:
 
 
 def worst_first(report: FileReport) -> list[tuple[str, Judgement]]:
-    """(scene, judgement) of a file, the worst verdict and the smallest margin first."""
+    """(scene, judgement) of a file, the worst verdict first; of those that are no pass the hazards, then the smallest
+    margin."""
     rows = [(scene.name, judgement) for scene, judgement in report.judgements]
-    return sorted(rows, key=lambda row: (row[1].verdict.rank, relative_margin(row[1]), row[1].margin or 0.0))
+    return sorted(rows, key=lambda row: _badness(row[1]))
+
+
+def _badness(judgement: Judgement) -> tuple[float, ...]:
+    mild = judgement.verdict is not Verdict.PASS and not judgement.hazard
+    return judgement.verdict.rank, mild, relative_margin(judgement), judgement.margin or 0.0
 
 
 def summary(totals: dict[str, int]) -> str:

@@ -103,6 +103,7 @@ def test_nothing_that_is_not_passed_is_left_out(seed: int) -> None:
     assert all((where, *pick.as_read(judgement)) in told for where, judgement in bad)
     assert {name for _, judgement in bad for name in judgement.loads} <= pick.loads(report)
     text = short(report)
+    unwrapped = text.replace("\n   ", " ")
     for where, judgement in bad:
         title = rf"{judgement.code} a fault of {judgement.code}" + (f": {judgement.element}" * bool(judgement.element))
         verdict = judgement.verdict.value.replace("_", " ")
@@ -114,7 +115,8 @@ def test_nothing_that_is_not_passed_is_left_out(seed: int) -> None:
                 rf"toy.*\n {verdict} {title}, {row.scenes[0]}: .*governing key: key \(toy.yaml:7:3\)", text
             ), "the worst stands above everything"
         else:
-            assert f"{verdict} {name}: governing key: key (toy.yaml:7:3)" in text
+            told_once = r"governing key: key \(toy.yaml:7:3\)|key and cause as of"
+            assert re.search(rf"^{verdict} (.+, )?{re.escape(name)}(, .+)?: ({told_once})", unwrapped, re.MULTILINE)
         assert f"title of {judgement.loads[0]} " in text
 
 
@@ -130,6 +132,23 @@ def test_of_what_passes_the_closest_of_each_code_is_shown_and_the_rest_is_counte
     assert shown == len(list(report.judgements))
 
 
+def test_hazards_come_before_what_takes_long_but_not_where_all_is_well() -> None:
+    """A slipping belt stands above a sag that misses its limit by more."""
+    for verdict, first in ((Verdict.FAIL, "TOY102"), (Verdict.UNDECIDED, "TOY102"), (Verdict.PASS, "TOY101")):
+        mild, grave = judged("TOY101", verdict, -6.0), replace(judged("TOY102", verdict, -1.0), hazard=True)
+        assert pick.checks(file(scene("rest", checks=[mild, grave])))[0].judgement.code == first
+
+
+def test_a_cause_is_said_once_with_all_its_checks() -> None:
+    slack, sag, long = (
+        replace(judged(f"TOY10{k}", Verdict.FAIL, -1.0), reason=why)
+        for k, why in ((1, "the belt slips"), (2, "the belt is loose"), (3, "the belt is loose"))
+    )
+    text = short(file(scene("rest", checks=[slack, sag]), scene("stop", checks=[slack, long])))
+    assert text.count("the belt slips") == 1
+    assert "fail TOY102 rest, TOY103 stop: governing key: key (toy.yaml:7:3); the belt is loose" in text
+
+
 @pytest.mark.parametrize(("margin", "told"), [(math.inf, "unlimited"), (-math.inf, "none"), (-1.0, "-10.0 %")])
 def test_a_fault_without_end_leaves_no_margin(margin: float, told: str) -> None:
     assert words.margin(judged("TOY101", Verdict.FAIL, margin)) == told
@@ -139,7 +158,7 @@ def test_a_verdict_that_reads_the_same_in_several_scenes_is_told_once() -> None:
     weak, weaker = (judged("TOY101", Verdict.FAIL, margin) for margin in (-1.0, -2.0))
     report = file(scene("rest", checks=[weak]), scene("start", checks=[weaker]), scene("stop", checks=[weak]))
     assert [(row.scene, row.judgement.margin) for row in pick.checks(report)] == [("start", -2.0), ("rest, stop", -1.0)]
-    assert short(report).count("fail TOY101 rest, stop: governing key") == 1
+    assert short(report).count("fail TOY101 rest, stop: key and cause as of TOY101 start") == 1
     assert [row.scene for row in pick.all_checks(report)] == ["start", "rest", "stop"]
 
 

@@ -63,6 +63,7 @@ TRIP: Check[ChainDrive, ChainScene] = Check(
 
 JAM: Check[ChainDrive, Run] = Check(
     code="CHN135",
+    hazard=True,
     title="chain safety factor, jam",
     question="Does the torque limiter protect the chain in a jam?",
     failure="chain is overloaded before the torque limiter trips",

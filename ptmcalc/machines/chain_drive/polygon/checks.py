@@ -89,6 +89,7 @@ def _blame_strength(spec: ChainDrive, scene: Run, loads: Loads) -> KeyPath:
 
 DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
     code="CHN102",
+    hazard=True,
     title="chain safety factor, steady running",
     question="Is the breaking load high enough for the largest tension of steady running, polygon effect included?",
     failure="chain is overloaded in steady running",
@@ -144,6 +145,7 @@ def _tension_key(spec: ChainDrive, scene: Run) -> KeyPath:
 
 SLACK: Check[ChainDrive, Run] = Check(
     code="CHN105",
+    hazard=True,
     title="minimum chain tension, steady running",
     question="Does every strand stay taut in steady running?",
     failure="chain tension falls below its minimum",
@@ -173,6 +175,7 @@ SLACK: Check[ChainDrive, Run] = Check(
 FATIGUE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
     Check(
         code="CHN107",
+        hazard=True,
         title="link plate fatigue utilisation",
         question="Is the alternating stress of the link plates within the fatigue limit?",
         failure="link plates exceed the fatigue limit",

@@ -37,6 +37,7 @@ def _static_limit(spec: ChainDrive, scene: Run) -> Estimate:
 
 STATIC_SAFETY: Check[ChainDrive, Run] = Check(
     code="CHN103",
+    hazard=True,
     title="chain safety factor, static",
     question="Is the breaking load high enough for the static and centrifugal tension?",
     failure="chain is overloaded by the static tension",

@@ -98,6 +98,7 @@ SLOW: Check[ChainDrive, Start] = Check(
 
 STRENGTH: Check[ChainDrive, Start] = Check(
     code="CHN122",
+    hazard=True,
     title="chain safety factor, starting",
     question="Is the breaking load high enough for the peak tension of the start?",
     failure="chain is overloaded during the start",
@@ -140,6 +141,7 @@ def _hard_start(spec: ChainDrive, scene: Start) -> KeyPath:
 
 SLACK: Check[ChainDrive, Start] = Check(
     code="CHN123",
+    hazard=True,
     title="minimum chain tension, starting",
     question="Does every strand stay taut during the start?",
     failure="chain goes slack during the start",

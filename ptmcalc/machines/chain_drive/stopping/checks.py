@@ -78,6 +78,7 @@ def _where_limited(spec: ChainDrive, scene: Stopping, check: AnyCheck) -> Checks
 
 WAY: Check[ChainDrive, Stopping] = Check(
     code="CHN124",
+    hazard=True,
     title="chain stopping distance",
     question="Does the chain stop within the permissible distance?",
     failure="chain stopping distance is too long",
@@ -149,6 +150,7 @@ def _torque_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
 
 TORQUE: Check[ChainDrive, Stopping] = Check(
     code="CHN126",
+    hazard=True,
     title="required brake torque",
     question="Is the brake torque enough to stop within the permissible distance?",
     failure="brake torque is too low for the stopping distance",
@@ -179,6 +181,7 @@ def _of_conveyors(spec: ChainDrive, scene: Stopping) -> Checks:
 
 SLACK: Check[ChainDrive, Stopping] = Check(
     code="CHN127",
+    hazard=True,
     title="minimum chain tension, stopping",
     question="Does every strand stay taut until the chain is at rest?",
     failure="chain goes slack during the stop",
@@ -205,6 +208,7 @@ SLACK: Check[ChainDrive, Stopping] = Check(
 
 STRENGTH: Check[ChainDrive, ChainScene] = Check(
     code="CHN128",
+    hazard=True,
     title="chain safety factor, stop or speed change",
     question="Is the breaking load high enough for the peak tension of a stop or a speed sweep?",
     failure="chain is overloaded during the stop or speed change",

@@ -152,6 +152,7 @@ _SOURCE = (
 INWARD: AnyCheck = _sides(
     Check(
         code="CNV150",
+        hazard=True,
         title="belt drift to the inner side of horizontal curves",
         question="Does the belt stay on its idlers in horizontal curves where its tension is largest?",
         failure="belt drifts off its idlers to the inner side of the curve",
@@ -179,6 +180,7 @@ INWARD: AnyCheck = _sides(
 OUTWARD: AnyCheck = _sides(
     Check(
         code="CNV151",
+        hazard=True,
         title="belt drift to the outer side of horizontal curves",
         question="Does the belt stay on its idlers in horizontal curves where its tension is smallest?",
         failure="belt drifts off its idlers to the outer side of the curve",

@@ -25,6 +25,7 @@ Checks = Iterable[AnyCheck]
 
 STRENGTH: Check[Conveyor, ConveyorScene] = Check(
     code="CNV102",
+    hazard=True,
     title="belt safety factor",
     question="Is the belt breaking force high enough for the largest belt tension?",
     failure="belt is overloaded",
@@ -137,6 +138,7 @@ TRANSIENT_SAG: Check[Conveyor, ConveyorScene] = only(lambda spec, scene: spec.ch
 
 SLACK: Check[Conveyor, ConveyorScene] = Check(
     code="CNV105",
+    hazard=True,
     title="belt tension above slack limit",
     question="Does every belt section stay above the slack limit (10 % sag by default)?",
     failure="belt tension falls below the slack limit",

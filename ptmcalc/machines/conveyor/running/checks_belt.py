@@ -178,6 +178,7 @@ _FIBRES = (
 
 FIBRE: Check[Conveyor, Run] = Check(
     code="CNV114",
+    hazard=True,
     title="maximum belt fibre tension",
     question="Is the tension of edge and centre within its limit in transitions and curves?",
     failure="belt edge or centre is overstressed",

@@ -93,6 +93,7 @@ def _checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
 
 SPLICE: Check[Conveyor, ConveyorScene] = Check(
     code="CNV130",
+    hazard=True,
     title="belt strength reserve with splice, DIN 22101:2011",
     question="Is the belt strong enough for the fatigue of its splices?",
     failure="belt is too weak for the fatigue of its splices",

@@ -267,6 +267,7 @@ def _run_back_checks(spec: Conveyor, scene: Start) -> Checks:
 
 RUN_BACK: Check[Conveyor, Start] = Check(
     code="CNV124",
+    hazard=True,
     title="belt run-back distance, aborted start",
     question="Does the belt stay where it is when a start is aborted?",
     failure="belt runs back after the aborted start; a `backstop` prevents it",

@@ -88,6 +88,7 @@ def _stop_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
 STOP: Check[Conveyor, ConveyorScene] = only(_limited)(
     Check(
         code="CNV106",
+        hazard=True,
         title="belt stopping distance",
         question="Does the belt at the head stop within the permissible distance?",
         failure="belt stopping distance is too long",
@@ -160,6 +161,7 @@ def _brake_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 BRAKE: Check[Conveyor, ConveyorScene] = only(_limited)(
     Check(
         code="CNV108",
+        hazard=True,
         title="required brake torque",
         question="Is the total brake torque enough to stop within the permissible distance?",
         failure="brake torque is too low for the stopping distance",

@@ -83,6 +83,7 @@ def _blame(spec: Conveyor, scene: ControlledStop, loads: Mapping[str, Estimate])
 
 FORCE: Check[Conveyor, ControlledStop] = Check(
     code="CNV125",
+    hazard=True,
     title="braking force reserve, controlled stop",
     question="Can the drives hold the belt to the speed of the controlled stop?",
     failure="braking force of the drives is below the required force",

@@ -77,6 +77,7 @@ STOPS: Check[Conveyor, ConveyorScene] = only(
 )(
     Check(
         code="CNV141",
+        hazard=True,
         title="take-up weight distance from its stops",
         question="Does the take-up weight stay clear of its stops while the belt moves?",
         failure="take-up weight reaches its stop",

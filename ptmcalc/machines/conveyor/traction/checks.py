@@ -127,6 +127,7 @@ def _blames_grip(path: KeyPath, drive: Drive) -> Callable[[Conveyor, ConveyorSce
 
 SLIP: Check[Conveyor, ConveyorScene] = Check(
     code="CNV101",
+    hazard=True,
     title="drive pulley traction reserve",
     question="Can every drive pulley transmit its force without belt slip?",
     failure="traction reserve at the drive pulley is too small",

@@ -26,6 +26,7 @@ def _torque_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
 
 TORQUE: AnyCheck = Check(
     code="DRV101",
+    hazard=True,
     title="peak link torque",
     question="Is the peak torque or force of every rated link within its limit?",
     failure="link is overloaded",

@@ -178,6 +178,7 @@ REACHES: Check[Drivetrain, Start] = Check(
 
 RESTS: Check[Drivetrain, Stop] = Check(
     code="DRV110",
+    hazard=True,
     title="speed after the stop",
     question="Does the shaft considered come to rest and stay at rest?",
     failure="shaft does not stay at rest",
@@ -203,6 +204,7 @@ def _way_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Sto
 
 WAY: Check[Drivetrain, Stop] = Check(
     code="DRV104",
+    hazard=True,
     title="stopping angle or distance",
     question="Is the travel from stop command to rest within the limit?",
     failure="stopping travel is too long",

@@ -99,6 +99,7 @@ _MOTOR_PATH = 2
 longer path can be changed by one factor."""
 BRAKES: AnyCheck = Check(
     code="DRV111",
+    hazard=True,
     title="motor braking torque reserve",
     question="Does the motor hold the overhauling load at its speed?",
     failure="load overcomes the braking torque of the motor",

@@ -47,6 +47,7 @@ def _raised(spec: Hoist, scene: HoistScene) -> bool:
 WEAK: OneCheck = only(_raised)(
     Check(
         code="HST114",
+        hazard=True,
         title="starting torque reserve, lower limit",
         question="Does the starting torque exceed the load torque with reserve?",
         failure="starting torque reserve is too small",
@@ -192,6 +193,7 @@ def _brake_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
 BRAKE: OneCheck = only(_brake_wanted)(
     Check(
         code="HST118",
+        hazard=True,
         title="hoist brake holding torque reserve",
         question="Does the brake torque exceed the load torque with the required reserve?",
         failure="holding torque reserve of the brake is too small",
@@ -259,6 +261,7 @@ def _braking_repair(spec: Hoist, scene: Run) -> KeyPath:
 OVERHAULED: OneCheck = only(_lowered)(
     Check(
         code="HST127",
+        hazard=True,
         title="motor braking torque reserve",
         question="Does the motor hold the overhauling load at its speed?",
         failure="load overcomes the braking torque of the motor",

@@ -156,6 +156,7 @@ def _where_lowering(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
 
 WAY: Check[Hoist, Stop] = Check(
     code="HST122",
+    hazard=True,
     title="lowering stopping distance",
     question="Does the brake stop the lowered load within the permissible distance, above the ground?",
     failure="load drops too far before it stops",
@@ -210,6 +211,7 @@ HARD: Check[Hoist, Moving] = Check(
 
 SLACK: Check[Hoist, Moving] = Check(
     code="HST124",
+    hazard=True,
     title="minimum rope force ratio",
     question="Does the rope stay taut while the suspended load starts or stops?",
     failure="rope force falls below its minimum",
@@ -242,6 +244,7 @@ def _share_key(spec: Hoist, scene: Release) -> KeyPath:
 
 SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
     code="HST126",
+    hazard=True,
     title="minimum rope force after load release",
     question="Does the rope stay taut when part of the load is released?",
     failure="rope force after the release falls below its limit",
@@ -273,6 +276,7 @@ def _where_play(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
 
 IMPACT: Check[Hoist, Moving] = Check(
     code="HST125",
+    hazard=True,
     title="gear dynamic torque factor",
     question="Is the peak gear torque, backlash impacts included, within its factor on the steady torque?",
     failure="gear torque peak is too high",

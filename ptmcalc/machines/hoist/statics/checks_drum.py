@@ -20,6 +20,7 @@ makers' manuals, ISO 16625:2013 as they quote it. A larger angle accepts more we
 CAPACITY: OneCheck = only(loaded)(
     Check(
         code="HST106",
+        hazard=True,
         title="required drum length",
         question="Does the drum take the whole rope in the specified layers?",
         failure="drum is too short for the rope",
@@ -80,6 +81,7 @@ LAYERS: OneCheck = only(loaded)(
 FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.flange_height is not None)(
     Check(
         code="HST108",
+        hazard=True,
         title="flange height above the top layer",
         question="Is the flange height above the top rope layer sufficient?",
         failure="drum flanges are too low",
@@ -135,6 +137,7 @@ SLENDER: OneCheck = only(loaded)(
 DEAD_WRAPS: OneCheck = only(loaded)(
     Check(
         code="HST110",
+        hazard=True,
         title="dead wraps on the drum",
         question="Do enough wraps stay on the drum at the lowest hook position?",
         failure="too few dead wraps stay on the drum",
@@ -218,6 +221,7 @@ def _hoop_wanted(spec: Hoist, scene: HoistScene) -> bool:
 HOOP: OneCheck = only(_hoop_wanted)(
     Check(
         code="HST112",
+        hazard=True,
         title="drum shell hoop stress",
         question="Is the hoop stress of the drum shell within its limit?",
         failure="drum shell is overstressed",

@@ -61,6 +61,7 @@ def _safety_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
 ROPE: OneCheck = only(loaded)(
     Check(
         code="HST101",
+        hazard=True,
         title="rope safety factor Z_p",
         question="Is the rope breaking force high enough for the largest steady rope pull?",
         failure="rope safety factor is too low",

@@ -137,6 +137,7 @@ OVERLOAD: OneCheck = only(lambda spec, scene: spec.motor.largest_torque is not N
 GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)(
     Check(
         code="CRN109",
+        hazard=True,
         title="slewing gearbox equivalent torque",
         question="Is the equivalent input torque within the gearbox rating?",
         failure="slewing gearbox is overloaded",
@@ -165,6 +166,7 @@ GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)
 PINION: OneCheck = only(lambda spec, scene: spec.gear.pinion_torque is not None)(
     Check(
         code="CRN116",
+        hazard=True,
         title="slewing pinion equivalent torque",
         question="Is the equivalent torque of the open pinion within its rating?",
         failure="slewing pinion is overloaded",
@@ -202,6 +204,7 @@ def _driven_back(spec: SlewingCrane, scene: SlewingScene) -> bool:
 LOCKS: OneCheck = only(_driven_back)(
     Check(
         code="CRN114",
+        hazard=True,
         title="jam ratio of the self-locking gear",
         question="Is the rotor inertia large enough to prevent jamming of the self-locking gear during braking?",
         failure="self-locking gear jams during braking",

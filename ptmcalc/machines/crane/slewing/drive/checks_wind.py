@@ -70,6 +70,7 @@ def _braking_repair(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
 OVERHAULED: OneCheck = only(_driven)(
     Check(
         code="CRN120",
+        hazard=True,
         title="motor braking torque reserve",
         question="Does the motor hold the crane at its speed in the maximum in-service wind?",
         failure="wind or slope overcomes the braking torque of the motor",
@@ -98,6 +99,7 @@ OVERHAULED: OneCheck = only(_driven)(
 WIND_BRAKE: OneCheck = only(_blown)(
     Check(
         code="CRN113",
+        hazard=True,
         title="slewing brake reserve against wind",
         question="Can the brake hold the crane against the maximum in-service wind?",
         failure="brake reserve against in-service wind is too small",

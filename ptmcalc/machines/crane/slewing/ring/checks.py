@@ -7,6 +7,7 @@ from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck
 RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
     Check(
         code="CRN115",
+        hazard=True,
         title="slewing ring utilisation",
         question="Is the tilting moment within the slewing ring limit curve at this axial load?",
         failure="tilting moment exceeds the limit curve of the slewing ring",

@@ -89,6 +89,7 @@ SHORT: OneCheck = only(turns)(
 BRAKE_ANGLE: OneCheck = only(starts)(
     Check(
         code="CRN104",
+        hazard=True,
         title="slewing stopping angle",
         question="Does the brake stop the crane within the permissible angle against in-service wind?",
         failure="crane slews too far before it stops",

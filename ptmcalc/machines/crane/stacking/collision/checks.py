@@ -36,6 +36,7 @@ def _stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 STROKE: OneCheck = Check(
     code="CRN281",
+    hazard=True,
     title="stacker buffer stroke",
     question="Do the buffers stop the machine within their stroke?",
     failure="buffer bottoms out",
@@ -67,6 +68,7 @@ def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 FORCE: OneCheck = Check(
     code="CRN282",
+    hazard=True,
     title="stacker buffer force",
     question="Is the buffer force within the rating of buffer and end stop?",
     failure="buffer force exceeds its rating",
@@ -115,6 +117,7 @@ def _speed_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 SPEED: OneCheck = only(lambda spec, scene: _largest_speed(spec, scene) is not None)(
     Check(
         code="CRN283",
+        hazard=True,
         title="stacker buffer impact speed",
         question="Is the impact speed within the limit of buffer and plant rules?",
         failure="buffer impact speed is too high",

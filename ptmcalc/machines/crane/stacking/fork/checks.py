@@ -51,6 +51,7 @@ def _of_rated(spec: Stacker, scene: StackerScene, loads: Mapping[str, Estimate])
 FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is not None)(
     Check(
         code="CRN284",
+        hazard=True,
         title="rope force factor, fork snagged",
         question="Is the rope force of a snagged fork within the design factor of the hoist?",
         failure="snagged fork overloads the hoist",
@@ -91,6 +92,7 @@ def _rope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 ROPE: OneCheck = Check(
     code="CRN285",
+    hazard=True,
     title="total rope force, fork snagged",
     question="Do the rope falls withstand a snagged fork?",
     failure="rope force of a snagged fork exceeds the breaking force",
@@ -115,6 +117,7 @@ RACK: OneCheck = only(
 )(
     Check(
         code="CRN286",
+        hazard=True,
         title="uplift on the rack, fork snagged",
         question="Does the rack beam withstand the uplift of a snagged fork?",
         failure="snagged fork lifts off or breaks the rack beam",
@@ -141,6 +144,7 @@ RACK: OneCheck = only(
 
 PUSH: OneCheck = Check(
     code="CRN287",
+    hazard=True,
     title="fork thrust on the rack",
     question="Does the rack withstand the thrust of the extending fork?",
     failure="fork thrust overloads the rack",
@@ -177,6 +181,7 @@ def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fork.rating is not None)(
     Check(
         code="CRN288",
+        hazard=True,
         title="telescopic fork thrust",
         question="Is the fork thrust within the rating of the telescopic fork?",
         failure="fork thrust overloads the telescopic fork",

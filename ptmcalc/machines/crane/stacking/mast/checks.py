@@ -86,6 +86,7 @@ def _asks_force(spec: Stacker, scene: StackerScene) -> bool:
 PULL: OneCheck = only(_asks_force)(
     Check(
         code="CRN252",
+        hazard=True,
         title="dynamic mast force",
         question="Is the dynamic force of the mast in a start or stop within its limit?",
         failure="mast is overloaded in a start or stop",
@@ -193,6 +194,7 @@ def _speed_blame(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath:
 BLOW: OneCheck = only(_asks_force)(
     Check(
         code="CRN255",
+        hazard=True,
         title="mast force in a collision",
         question="Is the force of the mast in a collision within its limit?",
         failure="mast is overloaded by the collision",
@@ -219,6 +221,7 @@ def _asks_contact(spec: Stacker, scene: StackerScene) -> bool:
 STRUCK: OneCheck = only(_asks_contact)(
     Check(
         code="CRN256",
+        hazard=True,
         title="obstacle contact force",
         question="Is the contact force with the obstacle within its limit?",
         failure="obstacle contact force is too high",
@@ -249,6 +252,7 @@ def _asks_speed(spec: Stacker, scene: StackerScene) -> bool:
 FAST: OneCheck = only(_asks_speed)(
     Check(
         code="CRN257",
+        hazard=True,
         title="obstacle collision speed",
         question="Is the collision speed within its limit?",
         failure="collision speed is too high",

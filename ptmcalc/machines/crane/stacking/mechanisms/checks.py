@@ -15,6 +15,7 @@ from ptmcalc.spec.scene import Scene
 
 ROLLERS: OneCheck = Check(
     code="CRN201",
+    hazard=True,
     title="guide roller load",
     question="Is the load of each guide roller within its rating?",
     failure="guide roller is overloaded",
@@ -43,6 +44,7 @@ ROLLERS: OneCheck = Check(
 JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
     Check(
         code="CRN202",
+        hazard=True,
         title="carriage guide friction ratio",
         question="Does the weight overcome the guide friction while lowering?",
         failure="guide friction is too large for the weight",
@@ -88,6 +90,7 @@ def _rope_needs(spec: Stacker, scene: HoistScene) -> tuple[KeyPath, ...]:
 
 ROPE: OneCheck = Check(
     code="CRN203",
+    hazard=True,
     title="carriage rope safety factor",
     question="Is the rope breaking force high enough for its largest pull?",
     failure="carriage rope is overloaded",

@@ -34,6 +34,7 @@ def _rail_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 CONTACT: OneCheck = Check(
     code="CRN293",
+    hazard=True,
     title="wheel load ratio on uneven rail",
     question="Do the wheels keep contact on steps, gaps and waves of the rail?",
     failure="wheel leaves the uneven rail",

@@ -22,6 +22,7 @@ def _gear_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 GEAR_STROKE: OneCheck = Check(
     code="CRN290",
+    hazard=True,
     title="safety gear stopping distance",
     question="Does the safety gear stop the carriage within its stroke?",
     failure="safety gear reaches the end of its stroke",
@@ -49,6 +50,7 @@ GEAR_STROKE: OneCheck = Check(
 
 HOLDS: OneCheck = Check(
     code="CRN291",
+    hazard=True,
     title="safety gear holding reserve",
     question="Does the braking force of the safety gear exceed the suspended weight?",
     failure="safety gear does not hold the carriage",
@@ -75,6 +77,7 @@ HOLDS: OneCheck = Check(
 DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration is not None)(
     Check(
         code="CRN292",
+        hazard=True,
         title="safety gear deceleration",
         question="Is the deceleration of the carriage in the safety gear within its limit?",
         failure="deceleration in the safety gear is too high",

@@ -60,6 +60,7 @@ def _travels(spec: Stacker, scene: StackerScene) -> bool:
 ALONG: OneCheck = _on_a_side("along", _travels)(
     Check(
         code="CRN207",
+        hazard=True,
         title="stability ratio along the aisle",
         question="Does the machine keep both wheels on the rail in a start or stop?",
         failure="stability ratio along the aisle is too small",
@@ -103,6 +104,7 @@ def _across_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 ACROSS: OneCheck = _on_a_side("across", _leans)(
     Check(
         code="CRN208",
+        hazard=True,
         title="stability ratio across the aisle",
         question="Do rails or the top guide hold the machine against the extended fork?",
         failure="stability ratio across the aisle is too small",
@@ -148,6 +150,7 @@ def _governs(part: str, shares: Shares) -> Callable[[Stacker, StackerScene, Load
 COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not None and _of_travel(spec, scene))(
     Check(
         code="CRN209",
+        hazard=True,
         title="mast stress",
         question="Is the stress at the mast root within the permissible stress in every load combination?",
         failure="mast is overstressed",
@@ -184,6 +187,7 @@ def _has_girders(spec: Stacker, scene: StackerScene) -> bool:
 BRIDGE: OneCheck = only(_has_girders)(
     Check(
         code="CRN210",
+        hazard=True,
         title="bridge girder stress",
         question="Is the girder stress within the permissible stress in every load combination?",
         failure="bridge girder is overstressed",

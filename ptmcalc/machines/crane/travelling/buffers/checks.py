@@ -10,6 +10,7 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 
 STROKE: OneCheck = Check(
     code="CRN170",
+    hazard=True,
     title="buffer stroke",
     question="Do the buffers stop the crane within their stroke?",
     failure="buffer bottoms out",
@@ -36,6 +37,7 @@ STROKE: OneCheck = Check(
 
 FORCE: OneCheck = Check(
     code="CRN171",
+    hazard=True,
     title="buffer force",
     question="Is the buffer force within the rating of buffer and end stop?",
     failure="buffer force exceeds its rating",
@@ -82,6 +84,7 @@ def _has_speed(spec: Travelling, scene: TravelScene) -> bool:
 HIT: OneCheck = only(_has_speed)(
     Check(
         code="CRN172",
+        hazard=True,
         title="buffer impact speed",
         question="Is the impact speed within the limit of buffer and plant rules?",
         failure="buffer impact speed is too high",

@@ -6,6 +6,7 @@ from ptmcalc.machines.crane.travelling.judging import STEPS, OneCheck
 
 CONTACT: OneCheck = Check(
     code="CRN173",
+    hazard=True,
     title="wheel load ratio at rail steps and gaps",
     question="Do the wheels keep contact on the largest step and gap of the rail?",
     failure="wheel leaves the rail at a step or gap",

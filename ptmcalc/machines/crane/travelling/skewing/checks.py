@@ -7,6 +7,7 @@ from ptmcalc.machines.crane.travelling.scenes import Skew
 
 GUIDE: OneCheck = Check(
     code="CRN174",
+    hazard=True,
     title="skewing guide force",
     question="Is the skewing force on the front guide within its rating?",
     failure="skewing force overloads the guide",

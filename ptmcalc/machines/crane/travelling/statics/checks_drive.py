@@ -101,6 +101,7 @@ def _braking_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
 OVERHAULED: OneCheck = only(_driven)(
     Check(
         code="CRN165",
+        hazard=True,
         title="motor braking torque reserve",
         question="Do the motors hold the overhauling crane at its speed?",
         failure="wind or slope overcomes the braking torque of the motors",

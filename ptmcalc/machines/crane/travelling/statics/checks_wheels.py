@@ -13,6 +13,7 @@ from ptmcalc.machines.crane.travelling.scenes import (
 
 WHEEL: OneCheck = Check(
     code="CRN157",
+    hazard=True,
     title="maximum wheel load",
     question="Is the largest wheel load within the rating of wheel and rail?",
     failure="wheel load exceeds its rating",
@@ -39,6 +40,7 @@ WHEEL: OneCheck = Check(
 
 LIFTS: OneCheck = Check(
     code="CRN158",
+    hazard=True,
     title="minimum wheel load",
     question="Do all wheels stay in contact with the rail?",
     failure="wheel lifts off the rail",
@@ -65,6 +67,7 @@ LIFTS: OneCheck = Check(
 
 TIPS: OneCheck = Check(
     code="CRN159",
+    hazard=True,
     title="stability ratio",
     question="Do the stabilising moments exceed the tipping moments by the required ratio?",
     failure="stability ratio is too small",

@@ -14,6 +14,7 @@ def _storm_key(spec: Travelling, scene: TravelScene) -> KeyPath:
 
 STORM: OneCheck = Check(
     code="CRN175",
+    hazard=True,
     title="holding reserve, out-of-service wind",
     question="Do brakes and rail clamps hold the parked crane in out-of-service wind?",
     failure="holding reserve in out-of-service wind is too small",

@@ -95,6 +95,7 @@ LONG_STOP: OneCheck = Check(
 LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not None)(
     Check(
         code="CRN152",
+        hazard=True,
         title="travel stopping distance",
         question="Does the crane stop within the permissible distance?",
         failure="stopping distance is too long",
@@ -179,6 +180,7 @@ def _skid_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
 
 SKID: OneCheck = Check(
     code="CRN155",
+    hazard=True,
     title="wheel adhesion reserve",
     question="Does every driven or braked wheel transmit its force without slip?",
     failure="adhesion reserve of a driven wheel is too small",
