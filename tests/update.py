@@ -1,10 +1,12 @@
 """Writes every derived file anew, after results have changed on purpose:
 
-    python tests/update.py                  all of them, about ten minutes
+    python tests/update.py                  all of them
     python tests/update.py golden docs      some of them
 
 examples: what `ptmcalc explain` shows (`examples.json` of each kind); docs: README.md and docs/ as their commands print
 them; golden: the reports in tests/golden; validation: docs/validation.md. Read the difference before committing it.
+
+On two slow cores, `golden` takes some seconds, `examples` about four minutes and `docs` about ten.
 """
 
 import os

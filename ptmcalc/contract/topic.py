@@ -24,6 +24,8 @@ class Topic(Generic[S]):
     """from the fastest to the most complete"""
     checks: tuple[AnyCheck, ...] = ()
     parts: Callable[[S], Iterable[LoadInfo]] | None = None
+    symbols: str = ""
+    """symbols of its formulas, written as in `symbols.txt`; for a topic of one file"""
 
     def loads_of(self, spec: S) -> Iterable[LoadInfo]:
         """Its loads of one machine."""

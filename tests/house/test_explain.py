@@ -12,6 +12,7 @@ import subprocess
 from contextlib import chdir
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.command import ROOT, ptmcalc
@@ -91,7 +92,10 @@ def test_every_letter_of_every_page_has_a_line_of_its_own(kind: AnyKind) -> None
     listed = kind.symbols()
     letters = {(name, letter) for name, of_page in _letters(kind).items() for letter in of_page}
     missing = {f"{name} {letter}" for name, letter in letters - listed.keys()}
-    assert missing == set(), "add a line for each to symbols.txt of the topic or kind"
+    assert missing == set(), (
+        "by page, symbols without a meaning: add `SYMBOL: meaning [unit]`, and the page name below it after four"
+        " spaces, to symbols.txt of the topic or kind, or to `symbols` of its `Topic`"
+    )
 
 
 @of_every_type
@@ -156,6 +160,19 @@ def test_a_letter_with_two_meanings_on_a_page_is_refused_across_topics(
         read()
 
 
+def test_a_topic_of_one_file_lists_its_symbols_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    top = tmp_path / "one_file_machine"
+    top.mkdir()
+    (top / "__init__.py").touch()
+    (top / SYMBOLS).write_text("S: tension [N]\n    XYZ101\n", "utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    own: Topic[Any] = Topic(symbols="A: area [m^2]\n    XYZ101\n")
+    expected = {("XYZ101", "S"): Symbol("tension", "N"), ("XYZ101", "A"): Symbol("area", "m^2")}
+    assert symbols_in("one_file_machine", (own,))() == expected
+    with pytest.raises(ValueError, match=r"`symbols` of a topic of one_file_machine: `A` has a meaning on page"):
+        symbols_in("one_file_machine", (own, own))()
+
+
 @pytest.mark.parametrize(
     ("name", "line"),
     [
@@ -199,7 +216,10 @@ def test_every_check_effect_solver_and_load_has_an_example(kind: AnyKind) -> Non
     if UPDATE and missing:
         keep(kind, found | from_blocks(kind, missing, pages_of(kind, missing)))
         found = stored(kind)
-    assert set(found) == set(names(kind)), "run `python tests/update.py examples`"
+    assert set(found) == set(names(kind)), (
+        "run `python tests/update.py examples`; a name that then still has no example is in no design file of specs/ or"
+        f" tests/machines/{kind.name}/*.md: add one that contains it"
+    )
 
 
 @of_every_kind

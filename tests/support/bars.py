@@ -1,13 +1,17 @@
-"""Error bars on trial: what runs claim of seeded machines, against what is exact.
+"""Tests of error bars: loads with their bars, of seeded random machines, against exact values.
 
-A coverage test draws machines by number (`numbers`), has each put on trial (`tried`): what every way to compute it
-claims, what an independent reference or a run far finer and fuller finds, and what the ladder says of a machine whose
-limit stands within three bars of a claim. Of every way it then asks `misses` (none), `misses` of a third of the bars
-(some), `wide` (the bar over the true error of what checks read,
-at most `WIDEST` in the median) and of all of them `opposites` (none).
+A coverage test draws machines by number (`numbers`) and evaluates each by `tried`. A `Trial` contains: the loads of
+every method with their error bars (`claims`), the exact loads by an independent reference or a much finer run with more
+effects (`truth`), the verdicts of the program (`said`), and those with the exact loads (`right`). Every other machine
+has a limit within three error bars of a load (`near`). The test then requires:
 
-A module that holds bars so says of which solvers and effects in `ON_TRIAL`; of those that claim no bar but rounding,
-for which a third of one means nothing, in `WITHOUT_BARS`. `tests/house/test_bars.py` finds the ones that nobody holds.
+* `misses` is empty: every exact value is within its error bar; with a third of the bars it is not empty;
+* `wide` is at most `WIDEST`: the median of error bar over true error, of loads that checks read; 0 if no check does;
+* `opposites` is empty: no verdict is `pass` where the exact loads fail, or the reverse.
+
+A module names the solvers and effects that it tests so in `ON_TRIAL`, and those without an error bar except rounding,
+for which a third of the bar means nothing, in `WITHOUT_BARS`. `tests/house/test_bars.py` finds those that no module
+names.
 """
 
 import math

@@ -24,7 +24,10 @@ def test_every_number_has_an_example_of_its_own_that_it_takes(kind: AnyKind) -> 
             continue
         example = example_at(model, key)
         if not (field.examples or usual(model, key)):
-            faulty.append(f"{model.__name__}.{key} has no usual value: add a line to usual.txt of its topic or kind")
+            faulty.append(
+                f"{model.__name__}.{key} has no usual value: add `Field(examples=['...'])` to its annotation, or"
+                f" `{model.__name__}.{key}: ...` to usual.txt of its topic or kind"
+            )
         elif measure is None:
             assert int(example) >= 0
         else:

@@ -49,7 +49,7 @@ def stacker(
         checks=of_its_scenes(offered["checks"]),
         figures=tuple(figure for figure in FIGURES if not words.isdisjoint(figure.scenes)),
         starting=template_in(package),
-        symbols=symbols_in(__package__),
+        symbols=symbols_in(__package__, TOPICS),
         assumed=assumptions,
         uses=USES,
         relations=tuple(relation for relation in relations_of(word) if relation.scenes & scenes),
