@@ -253,6 +253,8 @@ class FileReport:
     """the verdicts among them"""
     computed: bool = True
     """False if the file is only validated"""
+    project: tuple[tuple[str, str], ...] = ()
+    """head of the report by its keys: number, revision, author, checked_by"""
 
     @property
     def valid(self) -> bool:

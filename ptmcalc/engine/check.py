@@ -169,7 +169,8 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     judged = waived(spec, scenes, today)
     diagnostics += tuple(_nothing_checked(loaded, judged))
     tables = kind.tables_of(spec, judged)
-    report = FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables)
+    project = spec.project.given if spec.project is not None else ()
+    report = FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables, project=project)
     if not loaded.document.aliased:
         return report
     from ptmcalc.engine.report_keys import as_written_in_file

@@ -55,7 +55,7 @@ find a difference more certainly and take longer."""
 _SAME = 1e-9
 """Relative difference of a vectorised point from a file of its own [1] that counts as rounding: numpy and `math` differ
 in the last digit. A larger value hides real differences; a smaller one reports rounding."""
-_LEFT_OUT = ("waive", "tolerances", "description", "name")
+_LEFT_OUT = ("waive", "tolerances", "description", "name", "project")
 """What a point has no use for: its verdict is that of the physics, on any day."""
 _SAID = {
     Verdict.PASS: Said.PASS,

@@ -136,6 +136,7 @@ def _file(report: FileReport) -> dict[str, Any]:
         **({"ignored": report.ignored} if report.ignored else {}),
         **({"ignored_checks": report.ignored_checks} if report.ignored_checks else {}),
         **({} if report.computed else {"computed": False}),
+        **({"project": dict(report.project)} if report.project else {}),
     }
 
 

@@ -34,8 +34,10 @@ def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose:
                 break
             told.append(row)
         if told:
-            blocks += [f"### {escape(_cut(report.path))}", "\n".join([*_HEAD, *told])]
-            length += len(blocks[-2]) + len(_HEAD[0]) + len(_HEAD[1])
+            project = escape(", ".join(f"{label} {text}" for label, text in words.head(report)))
+            head = [f"### {escape(_cut(report.path))}", *filter(None, [project])]
+            blocks += [*head, "\n".join([*_HEAD, *told])]
+            length += sum(map(len, head)) + len(_HEAD[0]) + len(_HEAD[1])
         more += len(rows) - len(told)
         left -= len(told)
     if more:

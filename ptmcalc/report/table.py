@@ -49,6 +49,8 @@ def _title(console: Console, report: FileReport) -> None:
     title.append("  ")
     title.append(report.verdict.upper(), style=STYLE[report.verdict])
     console.print(title)
+    if report.project:
+        tell(console, Text(" " + ", ".join(f"{label} {text}" for label, text in words.head(report))))
     _worst(console, report)
     console.print()
     _diagnostics(console, report.diagnostics, notes=False)

@@ -179,6 +179,12 @@ def place(span: Span | None) -> str:
     return f"{span.line}:{span.column}" if span else ""
 
 
+def head(report: FileReport) -> list[tuple[str, str]]:
+    """What the file says of its project, with labels."""
+    labels = {"number": "project", "checked_by": "checked by"}
+    return [(labels.get(key, key), text) for key, text in report.project]
+
+
 def worst_first(report: FileReport) -> list[tuple[str, Judgement]]:
     """(scene, judgement) of a file, the worst verdict first; of those that are no pass the hazards, then the smallest
     margin."""

@@ -22,6 +22,27 @@ Accuracy = Efficiency
 """A requested relative error: above 0, at most 1."""
 
 
+_Line = Annotated[str, Field(min_length=1, max_length=100)]
+
+
+class Project(Fragment):
+    """What the head of a report says of the design; every key is optional."""
+
+    number: _Line | None = Field(default=None, examples=["P-2031"])
+    """number of the project or drawing"""
+    revision: _Line | None = Field(default=None, examples=["B"])
+    """revision of the design"""
+    author: _Line | None = Field(default=None, examples=["A. Designer"])
+    """who made the design"""
+    checked_by: _Line | None = Field(default=None, examples=["C. Checker"])
+    """who checked it"""
+
+    @property
+    def given(self) -> tuple[tuple[str, str], ...]:
+        """The keys that are given, with their texts."""
+        return tuple((key, text) for key, text in self if text)
+
+
 class CheckSwitch(Fragment):
     """Switches off one check of this file, with the reason."""
 
@@ -63,6 +84,8 @@ class MachineSpec(Fragment):
     """name of the machine in the report"""
     description: str = ""
     """remarks for readers of the file"""
+    project: Project | None = None
+    """head of the report: `number`, `revision`, `author`, `checked_by`"""
     gravity: Annotated[PositiveAcceleration, Setting("the place: on Earth it is within 0.3 % of 9.81 m/s^2")] = 9.81
     """acceleration of gravity; 9.81 m/s^2 when left out"""
     accuracy: Annotated[Accuracy | None, Setting("without it, verdicts determine the error bars")] = None

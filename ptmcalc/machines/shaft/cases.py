@@ -27,7 +27,10 @@ class _Known:
 _known: deque[_Known] = deque(maxlen=_KEPT)
 """The last machines: every scene of a file, its effects and its solvers ask for the same ones."""
 _cycles: OrderedDict[str, Cycle | NumericsError | None] = OrderedDict()
-_NOT_OF_A_CYCLE = {"kind", "name", "description", "accuracy", "effects", "speed", "brake", "checks", "scenes"}
+_NOT_OF_A_CYCLE = {
+    *("kind", "name", "description", "project"),
+    *("accuracy", "effects", "speed", "brake", "checks", "scenes"),
+}
 
 
 def _of(spec: Shaft, load: str) -> _Known:

@@ -1,7 +1,9 @@
 """What stands on the page of a file, before it is HTML: texts in rows, each number with its unit."""
 
+import hashlib
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from datetime import date
 from typing import Any
 
 from ptmcalc.base.diagnostic import Severity, Verdict
@@ -36,6 +38,8 @@ class Source:
     """The text of a design file; empty where nobody has it."""
 
     def __init__(self, text: str) -> None:
+        checksum = hashlib.sha256(text.encode()).hexdigest()
+        self.identity = [("SHA-256 of the design file", checksum)] if text else []
         lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n") if text else []
         if lines and not lines[-1]:
             lines.pop()
@@ -124,6 +128,7 @@ def page(report: FileReport, source: Source) -> Entry:
     return parts | {
         "path": report.path,
         "name": report.name,
+        "head": [*words.head(report), ("date", date.today().isoformat()), *source.identity],
         "kind": report.kind,
         "verdict": report.verdict,
         "counted": words.summary(count([report])).partition(", ")[2],
@@ -151,6 +156,7 @@ def _check(report: FileReport, source: Source, scene: str, judgement: Judgement)
         "level": _level_of(report, scene, judgement),
         "key": dotted(judgement.blame.path),
         "line": source.anchor(judgement),
+        "meaning": judgement.meaning,
         "remark": "; ".join(filter(None, said)),
         "repair": f"{dotted(repair.path)} = {words.number(repair.value, repair.quantity)}" if repair else "",
         "excerpt": source.excerpt(judgement),
