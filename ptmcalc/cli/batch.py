@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Self
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.output import say
+from ptmcalc.cli.progress import shown
 from ptmcalc.contract.report import FileReport, Tally, tally, total
 from ptmcalc.engine import check as engine
 from ptmcalc.engine.check import Options
@@ -86,7 +87,8 @@ class Run:
             said = f"part {shard} of the run holds no file: it has {_files(len(chosen.files))}" if shard else ""
             say(f"ptmcalc: {said or 'the list names no file'}; nothing was checked\n", err=True)
         if len(named) < FEW and not self.store and self.jobs is None and self.executor == LOCAL:
-            return (*told, *engine.check_paths(named, self.options))
+            with shown():
+                return (*told, *engine.check_paths(named, self.options))
         return self.batch(named, told)
 
     def processes(self, number: int) -> int:

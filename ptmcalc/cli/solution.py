@@ -12,6 +12,7 @@ from ptmcalc.base.span import KeyPath, dotted, key_path
 from ptmcalc.base.units import UnitError, read, show
 from ptmcalc.cli.listing import listed
 from ptmcalc.cli.output import say
+from ptmcalc.cli.progress import shown
 from ptmcalc.cli.study import loaded_or_told
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.report import FileReport, Judgement
@@ -44,11 +45,13 @@ def show_solution(path: str, code: str, vary: Sequence[str], scene: str, margin:
     varied = loaded.document.as_written(key_of(key_path(keys[0]), type(loaded.spec), loaded.document.data))
     if ranges:
         return _show_boundary(loaded, wanted, varied, ranges[0], scene, spare, as_json=as_json)
-    solution = solve(loaded, wanted, varied, scene, spare=spare)
+    with shown():
+        solution = solve(loaded, wanted, varied, scene, spare=spare)
     if solution is None:
         say(f"ptmcalc: within three decades no value of `{keys[0]}` changes the verdict of {wanted.code}\n", err=True)
         return 1
-    now, then = (_verdicts(one, scene) for one in (loaded, changed(loaded, solution.path, solution.value)))
+    with shown():
+        now, then = (_verdicts(one, scene) for one in (loaded, changed(loaded, solution.path, solution.value)))
     if as_json:
         say(json.dump(_entry(solution) | {"checks": [_row(key, then[key], now.get(key)) for key in then]}))
         return 0
@@ -156,7 +159,8 @@ def _show_boundary(
     """The curve over the second key on which the check just passes."""
     along = axis(loaded, text, counted=True)
     values = along.at(np.linspace(0, 1, along.count)).tolist()
-    found = list(boundary(loaded, wanted, path, along.key.path, values, scene, spare))
+    with shown():
+        found = list(boundary(loaded, wanted, path, along.key.path, values, scene, spare))
     if as_json:
         rows = [
             {

@@ -12,6 +12,7 @@ from typing import TypeVar
 
 from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
 from ptmcalc.base.errors import NumericsError, UsageError
+from ptmcalc.base.progress import step
 from ptmcalc.base.span import KeyPath, Span, dotted
 from ptmcalc.base.units import show
 from ptmcalc.contract.check import AnyCheck
@@ -150,7 +151,10 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
         named = tuple(said_as_written(one, loaded.document) for one in conflicts)
         return FileReport(name, kind.name, spec.name, loaded.diagnostics + named, loaded.assumed)
     purse = FilePurse(options.budget)
-    settled = [purse.settle(kind, spec, scene) for scene in made.scenes]
+    settled = []
+    for number, scene in enumerate(made.scenes, 1):
+        step(f"scene {scene.scene.label} ({number} of {len(made.scenes)})")
+        settled.append(purse.settle(kind, spec, scene))
     flips = _flips(kind, spec, made, settled, loaded.assumed, purse)
     diagnostics = (
         loaded.diagnostics
@@ -293,6 +297,7 @@ def _flips(
                 left.setdefault(key[0], set()).add((key[1], key[2]))
         if not left:
             continue
+        step(f"assumption {dotted(value.path)} = {show(end, value.quantity)}")
         again = plan(kind, other, [one for one in other.all_scenes if one.label in left])
         same = {label: [run for run in runs[label] if not value.changes(run.result.loads)] for label in left}
         ends = [purse.settle(kind, other, one, left[one.scene.label], same[one.scene.label]) for one in again.scenes]

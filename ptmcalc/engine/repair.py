@@ -7,6 +7,7 @@ from pydantic import BaseModel
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import UsageError
+from ptmcalc.base.progress import step
 from ptmcalc.base.span import KeyPath, dotted
 from ptmcalc.base.units import RATIO, show
 from ptmcalc.contract.check import AnyCheck
@@ -63,6 +64,7 @@ class Repairs:
         labels = tuple(one.label for one in spec.all_scenes if check.applies_to(one))
         labels = tuple(one for one in labels if not self.scenes or one in self.scenes)
         search = SearchPurse(min(REPAIR_SECONDS, self.purse.most))
+        step(f"value of {dotted(path)} that passes {check.code}")
         try:
             found = solve(self.loaded, check, path, labels, purse=search)
         except UsageError:

@@ -8,8 +8,9 @@ from itertools import islice
 
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.progress import step
 from ptmcalc.base.span import KeyPath, dotted
-from ptmcalc.base.units import RATIO, Quantity, display_unit, unit_of
+from ptmcalc.base.units import RATIO, Quantity, display_unit, show, unit_of
 from ptmcalc.contract.check import AnyCheck, Sense
 from ptmcalc.contract.report import AssumedReport
 from ptmcalc.engine.judge import Ruling
@@ -244,6 +245,7 @@ class _Search:
         measure = measure_at(before, self.path) if before is not None else None
         if measure is not None and measure.broken_by(value):
             return -math.inf
+        step(f"{dotted(self.path)} = {show(value, measure.quantity if measure else RATIO)}, {self.check.code}")
         spec = changed(self.loaded, self.path, value if measure else int(value)).spec
         if spec is None:
             return -math.inf
