@@ -172,6 +172,92 @@ def _with_free_drum(loop: LoopMasses, waves: _Waves, quarter: float, w: float) -
     return g - quarter * w * r - m * (a - quarter * w * b)
 
 
+def natural_frequencies_of_lengths(
+    loop: LoopMasses,
+    back_masses: FloatArray,
+    back_compliances: FloatArray,
+    carry_masses: FloatArray,
+    carry_compliances: FloatArray,
+    takeup_mass: float,
+    count: int,
+) -> FloatArray:
+    """The lowest natural circular frequencies of a belt loop whose strands have lengths of different mass.
+
+        (u, S)' = [[c, s/(Z w)], [-Z w s, c]] (u, S)   over a length,   S' = S - m_t w^2 u   at the tail
+        T the product of all:   T12 = 0,   T11 = 0,   T11 + T22 - 2 = m w^2 T12,   T21 = m w^2 T11
+
+    in the sequence of the module docstring: fixed length and gravity with the speed imposed, then both with the torque
+    imposed; a weight M adds -k w^2 T12 to T11 and -k w^2 (T11 + T22 - 2) to T21, k = M/4.
+
+    Args:
+        loop: point masses of the loop; its strands are not read.
+        back_masses: of the lengths of the return strand from the drum on [kg].
+        back_compliances: of the same [m/N].
+        carry_masses: of the lengths of the carrying strand from the tail on [kg].
+        carry_compliances: of the same [m/N].
+        takeup_mass: M, as in `natural_frequencies` [kg].
+        count: how many.
+
+    Returns:
+        w_1 <= w_2 <= ..., as `natural_frequencies` [rad/s].
+
+    **Range** as `natural_frequencies`; mass and compliance uniform along each length.
+    **Error** halving to 1e-12 of each frequency; rounding where two nearly coincide.
+    **Source** transfer matrices of a bar; the count of `modes_below`, whose angle passes each jump of Z within its half
+    turn.
+    """
+    columns = (back_masses, back_compliances), (carry_masses, carry_compliances)
+    strands = [np.column_stack(strand) for strand in columns]
+    whole = sum(float(np.sqrt(strand[:, 0] * strand[:, 1]).sum()) for strand in strands)
+    return np.array([_halved(loop, strands, takeup_mass / 4, order, whole) for order in range(1, count + 1)])
+
+
+_HALVED = 1e-12
+"""Relative width at which a halved interval is a frequency [1]; a numerical choice. A smaller value halves longer."""
+
+
+def _halved(loop: LoopMasses, strands: list[FloatArray], quarter: float, order: int, whole: float) -> float:
+    low, high = 0.0, order * math.pi / whole
+    while _below(loop, strands, quarter, high) < order:
+        low, high = high, 2 * high
+    while high - low > _HALVED * high:
+        middle = (low + high) / 2
+        low, high = (low, middle) if _below(loop, strands, quarter, middle) >= order else (middle, high)
+    return (low + high) / 2
+
+
+def _below(loop: LoopMasses, strands: list[FloatArray], quarter: float, w: float) -> int:
+    """How many frequencies of a loop of lengths are below w."""
+    impedance = math.sqrt(strands[0][0, 0] / strands[0][0, 1])
+    angle = 0.0 if loop.fixed_length else math.pi / 2 + math.atan(w * quarter / impedance)
+    matrix = np.eye(2)
+    for number, strand in enumerate(strands):
+        if number:
+            angle = _past(angle, impedance, impedance, w * loop.tail_mass)
+            matrix = np.array([[1.0, 0.0], [-loop.tail_mass * w**2, 1.0]]) @ matrix
+        for mass, compliance in strand.tolist():
+            own, phase = math.sqrt(mass / compliance), w * math.sqrt(mass * compliance)
+            angle = _past(angle, impedance, own, 0.0) + phase
+            impedance, s, c = own, math.sin(phase), math.cos(phase)
+            matrix = np.array([[c, s / (own * w)], [-own * w * s, c]]) @ matrix
+    clamped = math.floor(angle / math.pi)
+    if loop.imposed_speed:
+        return clamped
+    (t11, t12), (t21, t22) = matrix.tolist()
+    ring = t11 + t22 - 2
+    held = t12 if loop.fixed_length else t11 - quarter * w**2 * t12
+    pulled = ring if loop.fixed_length else t21 - quarter * w**2 * ring
+    free = pulled - loop.drive_mass * w**2 * held
+    return clamped + (free > 0 if clamped % 2 else free < 0) - 1
+
+
+def _past(angle: float, before: float, after: float, mass: float) -> float:
+    """The angle behind a jump of impedance or a point mass m, of which m w is given."""
+    turns = math.floor(angle / math.pi) * math.pi
+    sine, cosine = math.sin(angle - turns), math.cos(angle - turns)
+    return turns + math.atan2(after * sine, before * cosine - mass * sine)
+
+
 def modal_damping(
     natural_frequency: ArrayLike, retardation_time: float, resistance_rate: float, line_mass: float
 ) -> FloatArray:

@@ -42,7 +42,8 @@ def no_hold(time: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Length:
-    """A uniform length of belt: m, kg/m, N, and friction N/m, drag N*s/m^2, climb N/m."""
+    """A uniform length of belt: m, kg/m, N, and friction N/m, drag N*s/m^2, climb N/m; `lump` is friction at its
+    beginning [N]."""
 
     length: float
     line_mass: float
@@ -50,6 +51,7 @@ class Length:
     friction: float = 0.0
     climb: float = 0.0
     drag: float = 0.0
+    lump: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -348,6 +350,7 @@ def simulate(
     m, w, d, c = (
         np.array([getattr(one, name) * ds for one, ds in pieces]) for name in ("line_mass", "friction", "drag", "climb")
     )
+    w = w + lumps_of(plan.lengths, counts)
     count, tail = len(k), sum(counts[: plan.tail_after])
     rise = np.concatenate([[0.0], np.cumsum(c)])
     middle = (rise[1:] + rise[:-1]) / 2
@@ -396,6 +399,11 @@ def simulate(
             break
     times = np.arange(steps, dtype=np.float64) * dt
     return Motion(times, head.spot, low.spot, behind[:steps], highest, lowest, s, tail)
+
+
+def lumps_of(lengths: Sequence[Length], counts: Sequence[int]) -> FloatArray:
+    """Lumps of friction of every element [N]: those of the first one of each length."""
+    return np.array([one.lump if k == 0 else 0.0 for one, n in zip(lengths, counts, strict=True) for k in range(n)])
 
 
 def shared_out(lengths: Sequence[Length], elements: int) -> list[int]:

@@ -26,6 +26,7 @@ _BY_KEY: Mapping[str, str] = {
     "lift": "height, rise, elevation",
     "length": "centres, center_distance, pulley_centres",
     "capacity": "mass_flow, tonnage, throughput, flow",
+    "loading_points": "feeds, feeders, feed points, hoppers, loading_stations",
     "coefficient": "friction_factor, f, artificial_friction",
     "secondary": "length_factor, c_factor",
     "start_factor": "breakaway_factor, breakaway",

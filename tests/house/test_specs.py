@@ -35,6 +35,7 @@ MOST_EVALUATIONS = {
     "conveyor/grain_conveyor.yaml": 22_000_000,
     "conveyor/fluid_coupling_conveyor.yaml": 60_000_000,
     "conveyor/three_converters_conveyor.yaml": 100_000_000,
+    "conveyor/two_loading_points.yaml": 10_000_000,
     "chain_drive.yaml": 100_000,
     "chain_drive/roller_drive.yaml": 10_000,
     "chain_drive/inclined_scraper.yaml": 100_000,

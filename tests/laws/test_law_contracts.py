@@ -489,6 +489,10 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         for force in (1e5, 3e5, 9e5) for share in (0.2, 0.67, 0.95) for sharing in (False, True)
     ],
     belt_modes.natural_frequencies: [(loop, mass, 4) for loop in LOOPS for mass in (0.0, 900.0)],
+    belt_modes.natural_frequencies_of_lengths: [
+        (loop, np.array([300.0, 150.0]), np.array([1e-6, 2e-6]), *np.array([[200.0, 900.0], [2e-6, 1e-6]]), mass, 3)
+        for loop in LOOPS for mass in (0.0, 900.0)
+    ],
     belt_modes.modes_below: [(loop, mass, w) for loop in LOOPS for mass in (0.0, 900.0) for w in (1.7, 23.0, 91.0)],
     belt_modes.modal_damping: [(3.0, 0.02, 12.0, 180.0)],
     sprocket.pitch_radius: [(0.32, 8)],

@@ -24,7 +24,10 @@ from ptmcalc.report import Format, render
 
 GOLDEN = ROOT / "tests" / "golden"
 MACHINES = {"conveyor": "specs/conveyor.yaml", "slipping": "tests/cli/specs/slipping.yaml"}
-SIMULATED = {"crane_slewing": "specs/crane_slewing.yaml"}
+SIMULATED = {
+    "crane_slewing": "specs/crane_slewing.yaml",
+    "two_loading_points": "specs/conveyor/two_loading_points.yaml",
+}
 """Their verdicts alone are stored: steps of a simulation, and what its energy balance leaves over, are rounding's."""
 IN_CI = (Format.JUNIT, Format.SARIF, Format.GITHUB, Format.MARKDOWN, Format.SUMMARY)
 """Formats of continuous integration and of many files, stored of the machine that fails."""

@@ -13,8 +13,9 @@ from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST
 from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
+from ptmcalc.machines.conveyor.loading import load_line_mass
 from ptmcalc.machines.conveyor.loads import BRAKING_POWER, TAKEUP_CLEARANCES, TAKEUP_TOTAL
-from ptmcalc.machines.conveyor.model import braking_force, load_line_mass
+from ptmcalc.machines.conveyor.model import braking_force
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.running.idlers import rolls, rolls_of_a_set
 from ptmcalc.machines.conveyor.spec import (
@@ -399,12 +400,15 @@ _OF_CURVES: Assumption[Conveyor] = Assumption(
 
 def _rubbing(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
     """Friction at skirt plates and scrapers."""
+    paths: list[KeyPath] = []
     for name, force in spec.resistance.forces.items():
-        what = "skirt" if force.skirt is not None else "scraper"
-        if force.skirt is None and force.scraper is None:
-            continue
+        if force.skirt is not None or force.scraper is not None:
+            paths.append(("resistance", "forces", name, "skirt" if force.skirt is not None else "scraper"))
+    points = (spec.load.loading_points or {}).items()
+    paths += [("load", "loading_points", name, "skirt") for name, point in points if point.skirt is not None]
+    for path in paths:
         yield Assumption(
-            ("resistance", "forces", name, what, "friction"),
+            (*path, "friction"),
             units.RATIO,
             lambda spec: 0.6,
             lambda spec: Interval(0.5, 0.7),

@@ -10,6 +10,7 @@ from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.starting_gear import SoftStarter, StarDelta, in_star
 from ptmcalc.laws import start_profile
 from ptmcalc.machines.conveyor.load_sharing import steady_forces
+from ptmcalc.machines.conveyor.loading import Filling
 from ptmcalc.machines.conveyor.model import (
     BeltLine,
     FloatArray,
@@ -20,7 +21,7 @@ from ptmcalc.machines.conveyor.model import (
     turns,
 )
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, PlacedDrive, Run, Start
+from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, PlacedDrive, Start, steady
 from ptmcalc.numerics.belt.compiled import forces, start_on_curves
 from ptmcalc.numerics.belt.curve import CurveStage, MotorForce
 
@@ -44,7 +45,7 @@ CONVERTER_STEPS = 2000
 unstable on steep slip lines."""
 
 
-def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
+def running(spec: Conveyor, scene: ConveyorScene, filling: Filling | None = None) -> BeltLine:
     """The belt in steady motion: drives at the tail take their share of the resistance there."""
     line = belt_line_filled(spec, scene, filling) if filling else belt_line(spec, scene)
     at_tail = [name for name, drive in spec.all_drives.items() if drive.at == "tail"]
@@ -53,7 +54,7 @@ def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None
     forces = steady_forces(spec, line)
     line = replace(line, tail_pull=sum(forces[name] for name in at_tail))
     if keeps_length(spec, scene):
-        return replace(line, takeup_tension=running(spec, Run(load=scene.load), filling).mean_tension)
+        return replace(line, takeup_tension=running(spec, steady(scene), filling).mean_tension)
     return line
 
 

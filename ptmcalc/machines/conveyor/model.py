@@ -15,9 +15,20 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.laws import inertia, motor, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.brakes import braked_shafts
-from ptmcalc.machines.conveyor.keys.route import Section
+from ptmcalc.machines.conveyor.keys.belt import IdlerRow
+from ptmcalc.machines.conveyor.loading import (
+    Filling,
+    Names,
+    Piece,
+    filling_of,
+    force_in_zones,
+    forces_in_zones,
+    load_line_mass,
+    pieces,
+    sections,
+)
 from ptmcalc.machines.conveyor.resistances import Extra, extra_forces, filled, idler_friction
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Run, Start, Stopping
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Run, Start, Stopping, steady
 from ptmcalc.numerics import lanes
 
 FloatArray = NDArray[np.float64]
@@ -99,6 +110,8 @@ class BeltLine:
     """what drives at the tail pull in steady motion [N]"""
     weight_at_tail: bool = False
     """True if the take-up tension is the mean of both sides of the tail pulley"""
+    by_length: bool = False
+    """whether the load has several steps, and each length its own sag and slack limit"""
     static_resistance: float = field(init=False, compare=False, repr=False)
     """static resistance left for the drums at the head, at the rim [N]"""
 
@@ -164,15 +177,22 @@ class BeltLine:
         return self.back if which == RETURN else self.carry
 
     def wave_speed(self, which: int) -> float:
-        """Wave speed of a strand [m/s]."""
+        """Wave speed of a strand [m/s]; the mean over its length, where the load has steps."""
+        if self.by_length:
+            return self.strand(which).length / self.transit(which)
         return wave.wave_speed(self.stiffness, self.strand(which).line_mass)
 
     def impedance(self, which: int) -> float:
-        """Impedance of a strand [N*s/m]."""
-        return wave.impedance(self.stiffness, self.strand(which).line_mass)
+        """Impedance of a strand [N*s/m]; the largest one, where the load has steps."""
+        part = self.strand(which)
+        return wave.impedance(self.stiffness, max(part.masses) if self.by_length else part.line_mass)
 
     def transit(self, which: int) -> float:
         """Travel time of a wave along a strand [s]."""
+        if self.by_length:
+            part = self.strand(which)
+            speeds = [wave.wave_speed(self.stiffness, mass) for mass in part.masses]
+            return lanes.number(np.sum(np.diff(part.marks) / np.array(speeds)))
         return self.strand(which).length / self.wave_speed(which)
 
     @property
@@ -192,10 +212,9 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
     return belt_line_filled(spec, scene, filling_of(spec, scene))
 
 
-def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool]) -> BeltLine:
-    """The conveyor in a scene with the sections of `filling` loaded."""
+def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Filling) -> BeltLine:
+    """The conveyor in a scene with the material of a filling on its pieces."""
     given = spec.resistance
-    loads = [load_line_mass(spec) if full else 0.0 for full in filling]
     extra, drum = extra_forces(spec, load_line_mass(spec)), spec.main_drive.drum
     winds = keeps_length(spec, scene)
     return BeltLine(
@@ -203,9 +222,9 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
         speed=spec.speed,
         stiffness=belt_stiffness(spec),
         belt_line_mass=spec.belt.mass,
-        carry=_strand(spec, scene, loads, extra, carries=True),
-        back=_strand(spec, scene, loads, extra, carries=False),
-        tail_force=(given.secondary_force or 0.0) + extra.at_tail(filling[0]),
+        carry=_carry_strand(spec, scene, filling, extra),
+        back=_return_strand(spec, scene, extra),
+        tail_force=(given.secondary_force or 0.0) + extra.at_tail(bool(filling[0])),
         drive_mass=sum(drive_masses(spec, scene).values()),
         tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
         fixed_length=spec.takeup.type == "rigid" or winds,
@@ -215,6 +234,7 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
         slack_sag=spec.checks.slack_sag,
         speed_share=given.speed_share,
         weight_at_tail=spec.takeup.pulls_tail,
+        by_length=spec.load.loading_points is not None,
     )
 
 
@@ -228,33 +248,67 @@ def keeps_length(spec: Conveyor, scene: ConveyorScene) -> bool:
     return spec.takeup.type == "winch" and not isinstance(scene, Run)
 
 
-def _set_tension(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool]) -> float:
+def _set_tension(spec: Conveyor, scene: ConveyorScene, filling: Filling) -> float:
     """Mean tension of a loop whose winch has set it in steady running [N]; drives at the tail take no share yet."""
-    return belt_line_filled(spec, Run(load=scene.load), filling).mean_tension
+    return belt_line_filled(spec, steady(scene), filling).mean_tension
 
 
-def _strand(spec: Conveyor, scene: ConveyorScene, loads: Sequence[float], extra: Extra, *, carries: bool) -> Strand:
-    """The carrying or the return strand with the load of each section [kg/m], summed up section by section."""
-    route, grown = spec.route, _scene_factor(spec, scene)
-    uphill = 1 if carries else -1
-    row, over = (spec.idlers.carry, "carry") if carries else (spec.idlers.back, "return")
-    marks, friction, climb, masses, goes, spans = [0.0], [0.0], [0.0], [], [], []
-    for part, load in zip(route.parts[::uphill], loads[::uphill], strict=True):
-        cosine = 1.0 if route.inclination == "small_angle" else part.cosine
-        on_it = spec.belt.mass + (load if carries else 0.0)
-        pitch = (part.carry_pitch if carries else None) or row.pitch
-        idlers = row.mass_at(pitch)
-        main = idler_friction(spec, grown, carries, on_it, idlers, cosine, pitch)
+@dataclass(frozen=True, slots=True)
+class OfPiece:
+    """A length of a strand in numbers: its length [m], resistance and the tension that gravity asks for [N], mass of
+    belt and load and of the idlers per length [kg/m], weight on one idler pitch [N], None when it is not given."""
+
+    length: float
+    friction: float
+    climb: float
+    on_it: float
+    idlers: float
+    span_weight: float | None
+
+
+def carried_on(spec: Conveyor, scene: ConveyorScene, piece: Piece, names: Names, extra: Extra) -> OfPiece:
+    """A length of the carrying strand with the material of some loading points on it."""
+    load, part = load_line_mass(spec, names), piece.part
+    pitch = part.carry_pitch or spec.idlers.carry.pitch
+    special = extra.along("carry", load > 0) / spec.route.span + force_in_zones(spec, piece, names) / piece.length
+    return _of_piece(spec, scene, piece, spec.belt.mass + load, (spec.idlers.carry, pitch, special))
+
+
+def _of_piece(
+    spec: Conveyor, scene: ConveyorScene, piece: Piece, on_it: float, under: tuple[IdlerRow, float | None, float]
+) -> OfPiece:
+    row, pitch, special = under  # special resistance per length
+    carries = row is spec.idlers.carry
+    cosine = 1.0 if spec.route.inclination == "small_angle" else piece.part.cosine
+    idlers = row.mass_at(pitch)
+    main = idler_friction(spec, _scene_factor(spec, scene), carries, on_it, idlers, cosine, pitch)
+    climb = (1 if carries else -1) * on_it * spec.gravity * piece.lift
+    span = on_it * cosine * spec.gravity * pitch if pitch is not None else None
+    return OfPiece(piece.length, (main + special) * piece.length, climb, on_it, idlers, span)
+
+
+def _carry_strand(spec: Conveyor, scene: ConveyorScene, filling: Filling, extra: Extra) -> Strand:
+    """The carrying strand, summed up piece by piece."""
+    return _strand([carried_on(spec, scene, *one, extra) for one in zip(pieces(spec), filling, strict=True)])
+
+
+def _return_strand(spec: Conveyor, scene: ConveyorScene, extra: Extra) -> Strand:
+    """The return strand, summed up section by section."""
+    row, along = spec.idlers.back, extra.along("return", loaded=False) / spec.route.span
+    parts = sections(spec)[::-1]
+    return _strand([_of_piece(spec, scene, one, spec.belt.mass, (row, row.pitch, along)) for one in parts])
+
+
+def _strand(parts: Sequence[OfPiece]) -> Strand:
+    marks, friction, climb = [0.0], [0.0], [0.0]
+    for part in parts:
         marks.append(marks[-1] + part.length)
-        special = extra.along(over, carries and load > 0) / route.span
-        friction.append(friction[-1] + (main + special) * part.length)
-        climb.append(climb[-1] + uphill * on_it * spec.gravity * part.lift)
-        masses.append(on_it + idlers)
-        goes.append(on_it / (on_it + idlers))
-        if pitch is not None:
-            spans.append(on_it * cosine * spec.gravity * pitch)
-    mean = sum(mass * part.length for mass, part in zip(masses, route.parts[::uphill], strict=True)) / marks[-1]
-    known = len(spans) == len(route.parts)
+        friction.append(friction[-1] + part.friction)
+        climb.append(climb[-1] + part.climb)
+    masses = [part.on_it + part.idlers for part in parts]
+    spans = [part.span_weight for part in parts if part.span_weight is not None]
+    mean = sum(mass * part.length for mass, part in zip(masses, parts, strict=True)) / marks[-1]
+    known = len(spans) == len(parts)
     return Strand(
         masses[0] if lanes.alike(masses) else mean,
         max(spans) if known else None,
@@ -262,7 +316,7 @@ def _strand(spec: Conveyor, scene: ConveyorScene, loads: Sequence[float], extra:
         tuple(friction),
         tuple(climb),
         tuple(masses),
-        tuple(goes),
+        tuple(part.on_it / (part.on_it + part.idlers) for part in parts),
         tuple(spans) if known else (),
     )
 
@@ -286,29 +340,12 @@ def grips(spec: Conveyor) -> dict[str, float]:
     return {name: drum.friction * drum.wrap for name, drum in drums.items() if drum.friction is not None}
 
 
-def filling_of(spec: Conveyor, scene: ConveyorScene) -> list[bool]:
-    """Which sections carry load in a scene."""
-    return [_is_loaded(scene, part) for part in spec.route.parts]
-
-
-def _is_loaded(scene: ConveyorScene, part: Section) -> bool:
-    """Whether a section carries load in a scene."""
-    return {"full": True, "empty": False, "uphill": part.lift > 0, "downhill": part.lift < 0}[scene.load]
-
-
 def special_resistance(spec: Conveyor, scene: ConveyorScene) -> float:
-    """Forces with a name along both strands [N]."""
-    extra = extra_forces(spec, load_line_mass(spec))
-    loaded = zip(spec.route.parts, filling_of(spec, scene), strict=True)
-    carry = sum(extra.along("carry", full) * part.length for part, full in loaded) / spec.route.span
-    return carry + extra.along("return", loaded=False)
-
-
-def load_line_mass(spec: Conveyor) -> float:
-    """Load per length of the full carry strand [kg/m]."""
-    if spec.load.mass is not None:
-        return spec.load.mass
-    return filled(spec.load.capacity) / spec.speed
+    """Forces with a name along both strands and those of loading points [N]."""
+    extra, filling = extra_forces(spec, load_line_mass(spec)), filling_of(spec, scene)
+    loaded = zip(pieces(spec), filling, strict=True)
+    carry = sum(extra.along("carry", bool(names)) * piece.length for piece, names in loaded) / spec.route.span
+    return carry + forces_in_zones(spec, filling) + extra.along("return", loaded=False)
 
 
 def belt_stiffness(spec: Conveyor) -> float:

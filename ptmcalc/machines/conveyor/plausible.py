@@ -12,7 +12,7 @@ from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.result import Finding
-from ptmcalc.machines.conveyor.model import load_line_mass
+from ptmcalc.machines.conveyor.loading import load_line_mass, points_of
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive
 
 _LEAST_LOAD = 0.02
@@ -98,15 +98,19 @@ def implausible(spec: Conveyor) -> Iterator[Finding]:
 
 def _of_the_load(spec: Conveyor) -> Iterator[Finding]:
     """A load per length that is lost beside the belt, or more than any belt carries."""
-    mass, key = load_line_mass(spec), "mass" if spec.load.mass is not None else "capacity"
-    example = "100 kg/m" if key == "mass" else "900 t/h"
-    share = mass / spec.belt.mass
-    if share < _LEAST_LOAD:
-        reason = f"the load of {units.show(mass, units.LINE_MASS)} is {100 * share:.2g} % of the mass of the belt"
-        yield Finding("SPC201", reason, ("load", key), f"check number and unit; a usual value is `{key}: {example}`")
-    elif mass > _MOST_LOAD:
-        reason = f"the load is {units.show(mass, units.LINE_MASS)}: belts carry up to 1500 kg/m"
-        yield Finding("SPC201", reason, ("load", key), f"check number and unit; a usual value is `{key}: {example}`")
+    key = "mass" if spec.load.mass is not None else "capacity"
+    hint = f"check number and unit; a usual value is `{key}: {'100 kg/m' if key == 'mass' else '900 t/h'}`"
+    loads: list[tuple[KeyPath, float]] = [
+        (("load", "loading_points", name, key), load_line_mass(spec, (name,))) for name in points_of(spec)
+    ]
+    for path, mass in loads or [(("load", key), load_line_mass(spec))]:
+        share = mass / spec.belt.mass
+        if share < _LEAST_LOAD:
+            reason = f"the load of {units.show(mass, units.LINE_MASS)} is {100 * share:.2g} % of the mass of the belt"
+            yield Finding("SPC201", reason, path, hint)
+        elif mass > _MOST_LOAD:
+            reason = f"the load is {units.show(mass, units.LINE_MASS)}: belts carry up to 1500 kg/m"
+            yield Finding("SPC201", reason, path, hint)
 
 
 _MOST_LOAD = 10_000.0

@@ -41,6 +41,9 @@ difference. A smaller value weakens the reference; a larger one hides errors of 
 _LONGER = 3
 """Windows that a stop is simulated in, each twice the one before; a numerical choice. More follow a belt that stops
 later than the rigid body; each doubles the time."""
+_SHORT = 0.02
+"""Length of a loading zone relative to its strand [1] up to which its force acts at one place; a numerical choice. A
+smaller value keeps more short lengths, whose single elements shorten all steps of time."""
 Readings = dict[str, float]
 
 
@@ -98,6 +101,7 @@ def _moved(case: Moving, carried: frozenset[str], elements: int) -> Motion:
     counts = belt.shared_out(lengths, elements)
     pieces = [(one, one.length / n) for one, n in zip(lengths, counts, strict=True) for _ in range(n)]
     rubbed = np.array([(one.friction + one.drag * case.speed) * way for one, way in pieces])
+    rubbed = rubbed + belt.lumps_of(lengths, counts)
     climbed, ways = np.array([one.climb * way for one, way in pieces]), np.array([way for _, way in pieces])
     first = sum(counts[: len(back)])
     tension = _tension(case, rubbed, climbed, ways, first)
@@ -125,14 +129,29 @@ def _moved(case: Moving, carried: frozenset[str], elements: int) -> Motion:
 
 
 def _lengths(strand: Strand, stiffness: float, share: float, speed: float) -> list[Length]:
-    """Uniform lengths of a strand; a part of its resistance goes with the speed."""
-    found = []
+    """Uniform lengths of a strand; a part of its resistance goes with the speed. A loading zone is much shorter than an
+    element: it belongs to the length behind it, whose first element has the force of the zone."""
+    found: list[Length] = []
+    zone: Length | None = None
     for k, mass in enumerate(strand.masses):
         length = strand.marks[k + 1] - strand.marks[k]
         rubs = (strand.friction[k + 1] - strand.friction[k]) / length
         climbs = (strand.climb[k + 1] - strand.climb[k]) / length
-        found.append(Length(length, mass, stiffness, (1 - share) * rubs, climbs, share * rubs / speed))
-    return found
+        one = Length(length, mass, stiffness, (1 - share) * rubs, climbs, share * rubs / speed)
+        if zone is not None and _goes_on(zone, one):
+            more = zone.length * (zone.friction - one.friction) / (1 - share) + zone.lump
+            one = replace(one, length=zone.length + length, lump=more)
+        elif zone is not None:
+            found.append(zone)
+        zone = one if one.length < _SHORT * strand.length else None
+        if zone is None:
+            found.append(one)
+    return found if zone is None else [*found, zone]
+
+
+def _goes_on(zone: Length, one: Length) -> bool:
+    """Whether a short length differs in friction alone from the one behind it."""
+    return zone.line_mass == one.line_mass and math.isclose(zone.climb, one.climb, rel_tol=1e-9, abs_tol=1e-9)
 
 
 def _tension(case: Moving, rubbed: FloatArray, climbed: FloatArray, ways: FloatArray, first: int) -> FloatArray:
@@ -229,6 +248,8 @@ def _readings(case: Moving, motion: Motion) -> Readings:
     high = max(*map(float, highs), float(tail_off.max()), *(float(one.max()) for one in between))
     found |= {"tension_max": high, "tension_min": min(*lows, *(float(one.min()) for one in between))}
     found |= tension_loads.derived_loads(line, high, lows)
+    if line.by_length:  # of the tension and load of each length, which is not known here
+        found = {name: value for name, value in found.items() if name not in ("sag_relative_max", "slack_margin_min")}
     for at, tensions, spot in (("head", between[0], head), ("tail", between[1], motion.tail)):
         names = [name for name, drive in case.spec.all_drives.items() if drive.at == at]
         for j, name in enumerate(names):

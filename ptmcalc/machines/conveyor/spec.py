@@ -17,6 +17,7 @@ from ptmcalc.components.starting_gear import AnyStarter, FluidCoupling, gear_wit
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.keys.converter import DriveConverter, follows_wrongly, linked
+from ptmcalc.machines.conveyor.keys.loading import MOST_POINTS, misplaced_points
 from ptmcalc.machines.conveyor.keys.resistance import Resistance
 from ptmcalc.machines.conveyor.keys.route import Route
 from ptmcalc.machines.conveyor.keys.takeup import TakeUp
@@ -263,15 +264,24 @@ class ConveyorScene(Scene):
 
     load: Literal["full", "empty", "uphill", "downhill"] = "full"
     """load of the carrying strand: full, empty, or only on rising or on falling sections"""
+    loading_points: Annotated[tuple[str, ...], Field(min_length=1, max_length=MOST_POINTS)] | None = None
+    """loading points in operation; all of them when left out"""
 
     def default_name(self) -> str:
-        return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
+        if self.loading_points is None:
+            return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
+        return "_".join((self.type, *self.loading_points, *([] if self.load == "full" else [self.load])))
 
 
 class Run(ConveyorScene):
     """Steady running at rated speed."""
 
     type: Literal["run"] = "run"
+
+
+def steady(scene: ConveyorScene) -> Run:
+    """Steady running in the load state of a scene."""
+    return Run(load=scene.load, loading_points=scene.loading_points)
 
 
 class Aborted(Fragment):
@@ -425,6 +435,7 @@ class Conveyor(MachineSpec):
         yield from _without_density(given)
         route, resistance = given.block("route"), given.block("resistance")
         length = _whole_length(route) if route else None
+        yield from misplaced_points(given, length)
         if resistance is None:
             return
         if "cema" in resistance:

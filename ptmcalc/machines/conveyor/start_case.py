@@ -9,7 +9,7 @@ from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.laws import belt_modes, loop_bounds, start_profile
 from ptmcalc.laws.loop_bounds import LoopMasses
 from ptmcalc.machines.conveyor.loads import FREQUENCIES
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, loop_masses, starting_force
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, belt_line, loop_masses, starting_force
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 
 
@@ -126,6 +126,31 @@ def lowest_frequency(case: StartCase) -> float:
 def natural_frequencies(masses: LoopMasses, takeup_mass: float) -> tuple[float, ...]:
     """The lowest natural frequencies of a belt [rad/s], which no tension and no resistance changes."""
     return tuple(belt_modes.natural_frequencies(masses, takeup_mass, FREQUENCIES).tolist())
+
+
+def frequencies_of(case: StartCase, takeup_mass: float) -> tuple[float, ...]:
+    """The lowest natural frequencies of the belt in a start [rad/s], with the true mass of every length."""
+    line = case.line
+    if all(len(set(strand.masses)) == 1 for strand in (line.back, line.carry)):
+        return natural_frequencies(case.masses, takeup_mass)
+    back, carry = (_masses_and_compliances(strand, line.stiffness) for strand in (line.back, line.carry))
+    return _of_lengths(case.masses, back, carry, takeup_mass)
+
+
+Lengths = tuple[tuple[float, float], ...]
+
+
+@remembered(64)
+def _of_lengths(masses: LoopMasses, back: Lengths, carry: Lengths, takeup_mass: float) -> tuple[float, ...]:
+    (m2, c2), (m1, c1) = (np.array(strand).T for strand in (back, carry))
+    found = belt_modes.natural_frequencies_of_lengths(masses, m2, c2, m1, c1, takeup_mass, FREQUENCIES)
+    return tuple(found.tolist())
+
+
+def _masses_and_compliances(strand: Strand, stiffness: float) -> Lengths:
+    """Mass [kg] and compliance [m/N] of every length of a strand."""
+    lengths = np.diff(strand.marks).tolist()
+    return tuple((mass * length, length / stiffness) for mass, length in zip(strand.masses, lengths, strict=True))
 
 
 def start_duration(case: StartCase) -> float:

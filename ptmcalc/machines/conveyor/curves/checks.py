@@ -11,9 +11,8 @@ from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_
 from ptmcalc.contract.limits import key
 from ptmcalc.contract.result import of
 from ptmcalc.laws import horizontal_curve
-from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST, STRANDS, states
+from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST, STRANDS, loads_on, states
 from ptmcalc.machines.conveyor.keys.route import Bend
-from ptmcalc.machines.conveyor.model import load_line_mass
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.running.checks_belt import bend_key
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Run
@@ -35,13 +34,12 @@ _LIMIT = key(
 )
 
 
-def _drift(spec: Conveyor, bend: Bend, strand: str, loaded: bool, tension: float, speed: float, rule: str) -> float:
-    """Drift of one strand at a tension, positive inward [m]."""
+def _drift(spec: Conveyor, bend: Bend, strand: str, load: float, tension: float, speed: float, rule: str) -> float:
+    """Drift of one strand at a tension, positive inward [m]; the load is per length [kg/m]."""
     row = spec.idlers.carry if strand == "carry" else spec.idlers.back
     trough = row.trough
     assert trough is not None
     weight = spec.gravity * bend.cosine
-    load = load_line_mass(spec) if loaded else 0.0
     return horizontal_curve.drift(
         filled(spec.belt.width),
         trough.middle_roll,
@@ -62,13 +60,15 @@ def _worst(spec: Conveyor, scene: ConveyorScene, loads: Loads, bend: Bend, stran
     the tension and, of a start or a stop, the belt at standstill and at rated speed."""
     slow = spec.speed if isinstance(scene, Run) else 0.0
     found = []
-    for state in states(spec, bend, strand, scene):
+    every = [
+        (state, load) for state in states(spec, bend, strand, scene) for load in loads_on(spec, bend, state, scene)
+    ]
+    for state, load in every:
         tension = loads[of(MOST if side > 0 else LEAST, state)]
         speeds = (slow, spec.speed) if side > 0 else (spec.speed, slow)
-        loaded = state.endswith("full")
 
-        def at(pull: float, speed: float, rule: str, loaded: bool = loaded) -> float:
-            return side * _drift(spec, bend, strand, loaded, pull, speed, rule)
+        def at(pull: float, speed: float, rule: str, load: float = load) -> float:
+            return side * _drift(spec, bend, strand, load, pull, speed, rule)
 
         rules = horizontal_curve.RULES
         value = at(tension.value, speeds[0], rules[0])

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo, of
 from ptmcalc.machines.conveyor.keys.route import Bend
-from ptmcalc.machines.conveyor.model import filling_of
+from ptmcalc.machines.conveyor.loading import choices, filling_of, in_operation, load_line_mass, pieces
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run
 
 LEAST, MOST = "tension_bend_min", "tension_bend_max"
@@ -26,7 +26,26 @@ def states(spec: Conveyor, bend: Bend, strand: str, scene: ConveyorScene | None 
         return (name,)
     if scene is None or isinstance(scene, Run):
         return (f"{name}_full", f"{name}_empty")
-    return (f"{name}_full" if filling_of(spec, scene)[bend.number - 1] else f"{name}_empty",)
+    return (f"{name}_full" if any(_on_it(spec, bend, scene)) else f"{name}_empty",)
+
+
+def loads_on(spec: Conveyor, bend: Bend, state: str, scene: ConveyorScene) -> list[float]:
+    """Loads per length that the carrying strand may have in a state of a curve [kg/m]."""
+    if not state.endswith("full"):
+        return [0.0]
+    found = [load_line_mass(spec, names) for names in _on_it(spec, bend, scene) if names]
+    if isinstance(scene, Run):
+        before = [piece.points for piece in pieces(spec) if piece.section == bend.number - 1][-1]
+        feeding = in_operation(spec, scene)
+        some = choices(tuple(name for name in before if name in feeding))
+        found = [load_line_mass(spec, names) for names in some if names]
+    return found or [0.0]
+
+
+def _on_it(spec: Conveyor, bend: Bend, scene: ConveyorScene) -> list[tuple[str, ...]]:
+    """The loading points whose material lies on the lengths of a curve in a scene."""
+    loaded = zip(pieces(spec), filling_of(spec, scene), strict=True)
+    return [names for piece, names in loaded if piece.section == bend.number - 1]
 
 
 def bend_names(spec: Conveyor, scene: ConveyorScene | None = None) -> Iterator[tuple[str, str, str, Bend]]:

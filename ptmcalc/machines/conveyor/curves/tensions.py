@@ -8,7 +8,7 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST, bend_names
 from ptmcalc.machines.conveyor.load_sharing import sharing_is_known
-from ptmcalc.machines.conveyor.running.loads import fillings
+from ptmcalc.machines.conveyor.running.fillings import fillings
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 
 
@@ -17,9 +17,11 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
 
         S(x) = S_empty(x) + sum_k x_k dS_k(x),   x_k = 0 or 1 of the curve, 0 to 1 of all other sections
 
-    **Range** steady running; sections loaded evenly.
+    With loading points the material moves along the curve: x_k = 0 to 1 of its own lengths too.
+
+    **Range** steady running; sections loaded evenly, or whatever loading points bring.
     **Error** exact: a linear function has its extremes at the ends of the section and of the loads.
-    **Source** `running.loads.fillings`; ISO 5048:1989 and DIN 22101 for the resistances.
+    **Source** `running.fillings`; ISO 5048:1989 and DIN 22101 for the resistances.
     """
     every, found = fillings(spec, scene), dict[str, Found]()
     for least, most, strand, bend in bend_names(spec, scene):

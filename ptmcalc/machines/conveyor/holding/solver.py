@@ -1,5 +1,6 @@
 """Rollback torque of the stopped belt."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
@@ -34,9 +35,10 @@ def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: i
 
         M = sum n M_max i eta D/(2 R)   for `stalled_motor: on`, if that is larger
 
-    Only rising sections are loaded (worst case). Only the idler resistance counts at standstill: resistance of loading
-    points, skirt plates and cleaners is not guaranteed. The motors of a jammed belt stretch it with their largest
-    torque; once they are switched off, the backstop holds that pull.
+    Only rising sections are loaded (worst case), by the loading points of the scene; without a `backstop` scene, those
+    of every scene are tried. Only the idler resistance counts at standstill: resistance of loading points, skirt plates
+    and cleaners is not guaranteed. The motors of a jammed belt stretch it with their largest torque; once they are
+    switched off, the backstop holds that pull.
 
     **Range** standstill; without the impact of a backstop that engages with backlash.
     **Error** exact except for the friction coefficient.
@@ -44,9 +46,7 @@ def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: i
     Stalled motors: practice of backstop manufacturers; derived: all of the pull acts on the backstop, no friction
     relieves it.
     """
-    force = max(
-        -_rest(spec, Hold(load=load)) for load in (scene.load, "uphill" if scene.load == "full" else scene.load)
-    )
+    force = max(-_rest(spec, one) for one in _standing(spec, scene))
     diameter = spec.main_drive.drum.diameter
     torque = float(stopping.backstop_torque(force, diameter, 1.0))
     if spec.backstop is not None and spec.backstop.stalled_motor == "on":
@@ -55,6 +55,14 @@ def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: i
     if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
         return found
     return replace(found, failures=(runs_back("CNV109", "belt", torque),))
+
+
+def _standing(spec: Conveyor, scene: ConveyorScene) -> Iterator[Hold]:
+    """States of the stopped belt that count: as in the scene, and only rising sections loaded."""
+    scenes = [scene] if isinstance(scene, Hold) or spec.load.loading_points is None else spec.all_scenes
+    for named in dict.fromkeys(one.loading_points for one in scenes if one.load != "empty" or one is scene):
+        for load in dict.fromkeys((scene.load, "uphill" if scene.load == "full" else scene.load)):
+            yield Hold(load=load, loading_points=named)
 
 
 def _stalled_force(spec: Conveyor) -> float:

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from ptmcalc.base import units
 from ptmcalc.machines.conveyor.keys.damping import Damping
+from ptmcalc.machines.conveyor.keys.loading import MOST_POINTS, LoadingPoint, contradictory_points
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Length,
@@ -25,7 +26,7 @@ from ptmcalc.spec.fields import (
     PositiveLineStiffness,
     PositiveSpan,
 )
-from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, names_of_parts, together
 from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf
 from ptmcalc.spec.shape import Also
 
@@ -174,6 +175,8 @@ class Load(Fragment):
     """load per length of the carrying strand, or give `capacity`"""
     capacity: Annotated[MassFlow | None, OneOf("mass")] = None
     """mass flow; the load per length is capacity over belt speed"""
+    loading_points: Annotated[dict[str, LoadingPoint], Field(min_length=1, max_length=MOST_POINTS)] | None = None
+    """several loading points by name, instead of `capacity`"""
     density: Annotated[
         PositiveDensity | None, Absent("the check of the cross-section requires it and is not applied")
     ] = None
@@ -186,7 +189,11 @@ class Load(Fragment):
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """The load is given in one way."""
-        yield from exactly_one(given, "mass", "capacity")
+        if "loading_points" in given:
+            yield from names_of_parts(given, "loading_points")
+            yield from contradictory_points(given)
+        else:
+            yield from exactly_one(given, "mass", "capacity")
         if "surcharge_angle" in given and "density" not in given:
             reason = "the capacity of the cross-section is checked: `density` is missing"
             yield Conflict((), reason, "add `density: 1600 kg/m^3`")

@@ -14,6 +14,8 @@ from ptmcalc.contract.result import LoadInfo, of
 from ptmcalc.laws import idler_roll
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.keys.belt import IdlerRoll, IdlerRow
+from ptmcalc.machines.conveyor.keys.route import Curve
+from ptmcalc.machines.conveyor.loading import Piece, pieces, sections
 from ptmcalc.machines.conveyor.model import BeltLine
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.running.limits import given
@@ -74,12 +76,13 @@ _WHICH = {"carry": CARRY, "return": RETURN}
 
 
 def _idler_sets(spec: Conveyor, line: BeltLine, strand: str, row: IdlerRow) -> Iterator[tuple[float, float, float]]:
-    """Weight of belt and load, force of the curve, weight of the rotating parts of one set [N], for each section and
-    each convex curve; sections are counted from the tail."""
+    """Weight of belt and load, force of the curve, weight of the rotating parts of one set [N], for each length with
+    one load and each convex curve, from the tail on."""
     weights = list(line.strand(_WHICH[strand]).span_weights)
+    lengths = pieces(spec) if strand == "carry" else sections(spec)
     if strand == "return":
         weights.reverse()
-    pitches = [filled((part.carry_pitch if strand == "carry" else None) or row.pitch) for part in spec.route.parts]
+    pitches = [filled((one.part.carry_pitch if strand == "carry" else None) or row.pitch) for one in lengths]
     own = [row.mass_at(pitch) * pitch * spec.gravity for pitch in pitches]
     for weight, mass in zip(weights, own, strict=True):
         yield weight, 0.0, mass
@@ -89,8 +92,15 @@ def _idler_sets(spec: Conveyor, line: BeltLine, strand: str, row: IdlerRow) -> I
             continue
         places = np.clip([curve.place - curve.tangent, curve.place + curve.tangent], 0, whole) / whole
         tensions = line.static(_WHICH[strand], places if strand == "carry" else 1 - places)
-        for index in (curve.number - 2, curve.number - 1):
-            yield weights[index], max(number(tensions.max()), 0.0) * pitches[index] / curve.radius, own[index]
+        for index, one in enumerate(lengths):
+            beside = one.section in (curve.number - 2, curve.number - 1)
+            if beside and (len(lengths) == len(spec.route.parts) or _touches(one, curve)):
+                yield weights[index], max(number(tensions.max()), 0.0) * pitches[index] / curve.radius, own[index]
+
+
+def _touches(piece: Piece, curve: Curve) -> bool:
+    """Whether a piece has a part of a curve."""
+    return piece.start < curve.place + curve.tangent and piece.start + piece.length > curve.place - curve.tangent
 
 
 # -- checks -----------------------------------------------------------------------------------------------------------

@@ -1,7 +1,6 @@
 """Loads of a steadily running belt that follow from what its file says of belt, trough and curves."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
@@ -10,11 +9,12 @@ from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo, family, of
 from ptmcalc.laws import belt_section, horizontal_curve, sag, vertical_curve
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Bend, Curve
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
+from ptmcalc.machines.conveyor.loading import Names, filling_of, load_line_mass, pieces
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.running.fillings import Fillings, fillings
 from ptmcalc.machines.conveyor.running.idlers import ROLL_LOADS, life_strands, roll_loads, rolls
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import number, value
@@ -65,7 +65,7 @@ def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
 
 def static_loads(spec: Conveyor, scene: Run, line: BeltLine, highest: float) -> dict[str, float]:
     """What the file gives enough for; `highest` is the maximum tension of the belt [N]."""
-    found = _fill(spec) | _drums(spec) | _sags(spec, line) | roll_loads(spec, line)
+    found = _fill(spec, scene) | _drums(spec) | _sags(spec, line) | roll_loads(spec, line)
     if bent(spec):
         whatever = fillings(spec, scene)
         found |= _curves(spec, whatever) | _fibres(spec, whatever)
@@ -78,21 +78,33 @@ def static_loads(spec: Conveyor, scene: Run, line: BeltLine, highest: float) -> 
 # -- the load on the belt, the belt on the drum ---------------------------------------------------------------------
 
 
-def _fill(spec: Conveyor) -> dict[str, float]:
-    """Stream over what the cross-section holds at its steepest place."""
+def _fill(spec: Conveyor, scene: Run) -> dict[str, float]:
+    """Stream over what the cross-section holds at its fullest place."""
     load, trough, width = spec.load, spec.idlers.carry.trough, spec.belt.width
     if load.density is None or trough is None or width is None:
         return {}
     loaded_width, surcharge_section = belt_section.EDITIONS[load.section_edition]
     bed = value(loaded_width, width), trough.middle_roll, trough.angle
     surcharge = filled(load.surcharge_angle)
-    steepest = max(abs(part.slope) for part in spec.route.parts)
     heaped = value(surcharge_section, *bed, surcharge)
-    section = value(belt_section.water_section, *bed)
-    section += heaped * value(belt_section.slope_reduction, steepest, surcharge)
-    most = value(belt_section.capacity, section, spec.speed, load.density)
-    stream = load_line_mass(spec) * spec.speed
-    return {"capacity_max": most, "section_fill": value(belt_section.fill_share, stream, most)}
+    water = value(belt_section.water_section, *bed)
+    places = []
+    for slope, names in _places_of_load(spec, scene):
+        section = water + heaped * value(belt_section.slope_reduction, slope, surcharge)
+        most = value(belt_section.capacity, section, spec.speed, load.density)
+        stream = load_line_mass(spec, names) * spec.speed
+        places.append((value(belt_section.fill_share, stream, most), most))
+    fill, most = max(places, key=lambda place: place[0])
+    return {"capacity_max": most, "section_fill": fill}
+
+
+def _places_of_load(spec: Conveyor, scene: Run) -> list[tuple[float, Names | None]]:
+    """Slopes, and the loading points in operation before them: of a belt that is loaded all over the steepest one."""
+    if spec.load.loading_points is None:
+        return [(max(abs(part.slope) for part in spec.route.parts), None)]
+    full = scene.model_copy(update={"load": "full"})
+    loaded = zip(pieces(spec), filling_of(spec, full), strict=True)
+    return [(abs(piece.part.slope), names) for piece, names in loaded]
 
 
 def has_drum_data(spec: Conveyor) -> bool:
@@ -134,7 +146,7 @@ def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
             sags.reverse()  # sections are counted from the tail
         ratios.append(np.array(sags))
         if spec.route.sections is not None:
-            found |= {of(name, str(number)): ratio for number, ratio in enumerate(sags, 1)}
+            found |= _of_sections(spec, name, sags)
         if strand in limited_strands(spec):
             found[of("sag_strand_max", strand)] = number(ratios[-1].max())
     if len(ratios) == 2:
@@ -142,76 +154,18 @@ def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
     return found
 
 
+def _of_sections(spec: Conveyor, name: str, sags: list[float]) -> dict[str, float]:
+    """The largest sag of each section of the file, of those of its pieces or of one for each section."""
+    if len(sags) == len(spec.route.parts):
+        return {of(name, str(number)): ratio for number, ratio in enumerate(sags, 1)}
+    found: dict[str, float] = {}
+    for piece, ratio in zip(pieces(spec), sags, strict=True):
+        load = of(name, str(piece.section + 1))
+        found[load] = max(found.get(load, ratio), ratio)
+    return found
+
+
 # -- over all fillings of the belt ----------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class Fillings:
-    """The belt over all choices of loaded sections: the empty belt, what the load of each section adds to the tension
-    of the carry strand at its downstream end and at all places [N], to that of the return strand [N], marks between the
-    sections [m]."""
-
-    empty: BeltLine
-    pulls: FloatArray
-    everywhere: FloatArray
-    back: FloatArray
-    marks: FloatArray
-
-    def at(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Least and most tension at places along the carry strand [m].
-
-            S(x) = S(0) + sum_k x_k dS_k;   least: x_k = 1 where dS_k < 0,   most: where dS_k > 0
-
-        **Source** `laws.strand_tension.worst_loading`: a linear function on a cube has its extreme at a corner.
-        """
-        passed = np.clip((places[:, None] - self.marks[:-1]) / np.diff(self.marks), 0, 1)
-        gains = passed * self.pulls + self.everywhere
-        base = self.empty.static(CARRY, places / self.empty.carry.length)
-        return base + np.minimum(gains, 0).sum(axis=1), base + np.maximum(gains, 0).sum(axis=1)
-
-    def within(self, section: int, loaded: bool) -> tuple[float, float]:
-        """Least and most tension in a section, counted from 0, that is itself loaded or empty [N].
-
-        In a section the tension is linear between its ends, whatever else is loaded.
-        """
-        places = self.marks[section : section + 2]
-        passed = np.clip((places[:, None] - self.marks[:-1]) / np.diff(self.marks), 0, 1)
-        gains = passed * self.pulls + self.everywhere
-        own, others = gains[:, section], np.delete(gains, section, axis=1)
-        base = self.empty.static(CARRY, places / self.empty.carry.length) + (own if loaded else 0.0)
-        least, most = base + np.minimum(others, 0).sum(axis=1), base + np.maximum(others, 0).sum(axis=1)
-        return number(least.min()), number(most.max())
-
-    def on_return(self, section: int) -> tuple[float, float]:
-        """Least and most tension of the return strand below a section, counted from 0 [N]."""
-        places = self.empty.back.length - self.marks[section : section + 2]
-        base = self.empty.static(RETURN, places / self.empty.back.length)
-        return number(base.min() + np.minimum(self.back, 0).sum()), number(base.max() + np.maximum(self.back, 0).sum())
-
-
-def fillings(spec: Conveyor, scene: Run) -> Fillings:
-    """All fillings of a conveyor in steady running.
-
-    A loaded section adds its pull to the tension downstream of it, less the share that drives at the tail take; in a
-    fixed loop the mean of that is taken off everywhere. All is linear in the load of each section; on the curves of
-    motors the share of the tail is the secant between the empty and the full belt.
-    """
-    count = len(spec.route.parts)
-    empty, full = (running(spec, scene, [loaded] * count) for loaded in (False, True))
-    pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
-    everywhere = np.array([full.tail_force - empty.tail_force] + [0.0] * (count - 1))
-    if full.tail_pull or empty.tail_pull:
-        more = full.tail_pull - empty.tail_pull
-        pulled = full.static_resistance - empty.static_resistance + more
-        everywhere = everywhere - (more / pulled if pulled else 0.0) * (pulls + everywhere)
-    step = everywhere
-    if full.weight_at_tail:  # half of what the load adds at the tail pulley lowers the tension before it
-        everywhere = everywhere / 2
-    marks, whole = np.array(full.carry.marks), full.carry.length
-    if full.fixed_length:
-        rest = np.diff(marks) / 2 + whole - marks[1:]
-        everywhere = everywhere - (pulls * rest + everywhere * whole) / (whole + full.back.length)
-    return Fillings(empty, pulls, everywhere, everywhere - step, marks)
 
 
 def _places(spec: Conveyor, place: Curve | Transition, name: str) -> FloatArray:

@@ -5,11 +5,11 @@ from ptmcalc.components.steady_drive_checks import SteadyMotors, steady_loads, s
 from ptmcalc.contract.result import Result
 from ptmcalc.machines.conveyor.load_sharing import motors_of, steady_forces
 from ptmcalc.machines.conveyor.model import belt_line
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run, Start
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run, Start, steady
 
 
 def _resistance(spec: Conveyor, scene: ConveyorScene) -> float:
-    return belt_line(spec, Run(load=scene.load)).static_resistance
+    return belt_line(spec, steady(scene)).static_resistance
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
@@ -24,7 +24,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     **Error** exact; with different curves one part in a million.
     **Source** derived: equilibrium on the torque curves (`components.steady_drive`, `load_sharing.steady_forces`).
     """
-    line = belt_line(spec, Run(load=scene.load))
+    line = belt_line(spec, steady(scene))
     return steady_loads(motors_of(spec), line.static_resistance, spec.speed, steady_forces(spec, line))
 
 

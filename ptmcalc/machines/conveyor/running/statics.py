@@ -14,9 +14,11 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.load_sharing import sharing_is_known, steady_forces
+from ptmcalc.machines.conveyor.loading import pieces
 from ptmcalc.machines.conveyor.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.running.fillings import pulls_of
 from ptmcalc.machines.conveyor.running.loads import OF_STATICS, OF_TENSION, static_loads
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import exp, expm1, number, value
@@ -64,7 +66,7 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     }
     back = len(line.back.marks)
     lows = number(tensions[:back].min()), number(tensions[back:].min())
-    loads |= tension_loads.derived_loads(line, number(tensions[high]), lows)
+    loads |= tension_loads.derived_loads(line, number(tensions[high]), lows, _lengths(line, tensions))
     loads |= _of_drives(spec, line)
     loads |= _between_drives(spec, line, loads)
     loads |= _of_running(spec, scene, line, places, tensions)
@@ -79,6 +81,16 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     beyond = _unshared(spec, found)
     state = "the `curve` of each motor determines the load sharing of unequal drives" if beyond else ""
     return Result(found, work=1, histories=histories, beyond=beyond, open_end=state)
+
+
+def _lengths(line: BeltLine, tensions: FloatArray) -> tension_loads.Spans | None:
+    """Lengths with loads of their own, and their lowest tensions."""
+    back = len(line.back.marks)
+    if not line.by_length or not (line.back.span_weights and line.carry.span_weights):
+        return None
+    ends = (tensions[:back], line.back), (tensions[back:], line.carry)
+    lows = [(strand.span_weights[k], min(one[k], one[k + 1])) for one, strand in ends for k in range(len(one) - 1)]
+    return [(span, number(low)) for span, low in lows]
 
 
 def _unshared(spec: Conveyor, found: Iterable[str]) -> dict[str, Interval]:
@@ -193,9 +205,9 @@ def _motor_power(spec: Conveyor, line: BeltLine) -> float:
 
 
 def _worst_load(spec: Conveyor, scene: Run, empty: BeltLine) -> float:
-    """Pull of the load when only those sections are full where it pulls back [N]."""
-    full = running(spec, scene, [True] * len(spec.route.parts))
-    pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
+    """Pull of the load when only those lengths are full where it pulls back [N]."""
+    pulls = np.array(pulls_of(spec, scene, pieces(spec))[-1])
+    full = running(spec, scene.model_copy(update={"load": "full"}))
     pulls[0] += full.tail_force - empty.tail_force
     return number(pulls @ strand_tension.worst_loading(pulls, strand_tension.MOST))
 

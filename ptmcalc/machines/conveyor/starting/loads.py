@@ -16,7 +16,7 @@ from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.motion import Moving, moving
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, Drive, PlacedDrive, Start
-from ptmcalc.machines.conveyor.start_case import StartCase, lowest_frequency, natural_frequencies, start_case
+from ptmcalc.machines.conveyor.start_case import StartCase, frequencies_of, lowest_frequency, start_case
 from ptmcalc.machines.conveyor.waves import start_enclosure
 
 START_LOADS = (
@@ -52,7 +52,7 @@ def start_loads(spec: Conveyor, scene: Start, case: StartCase) -> dict[str, Foun
     found: dict[str, float] = {}
     left = spec.checks.start_residual is not None and scene.profile.rise_time > 0 and case.moves
     if not case.line.weight_at_tail and (scene.profile.ripple is not None or left):
-        frequencies = natural_frequencies(case.masses, spec.takeup_weight)
+        frequencies = frequencies_of(case, spec.takeup_weight)
         if scene.profile.ripple is not None:
             turns = np.array(frequencies) / (2 * math.pi)
             found["resonance_distance"] = float(np.min(np.abs(scene.profile.ripple / turns - 1)))

@@ -13,7 +13,7 @@ from ptmcalc.contract.result import Found, LoadInfo, of
 from ptmcalc.machines.conveyor.load_sharing import steady_forces
 from ptmcalc.machines.conveyor.model import belt_line, turns
 from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Run, Start
+from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Start, steady
 from ptmcalc.machines.conveyor.start_case import StartCase
 from ptmcalc.machines.conveyor.starting.loads import slip_heat_of
 
@@ -75,7 +75,7 @@ def _reduced(spec: Conveyor, scene: Start, case: StartCase, name: str) -> Estima
 def running_load(spec: Conveyor, scene: Start, name: str) -> float:
     """Torque of one motor of a drive in the running that follows a start, over its rated torque [1]."""
     drive = spec.all_drives[name]
-    force = steady_forces(spec, belt_line(spec, Run(load=scene.load)))[name]
+    force = steady_forces(spec, belt_line(spec, steady(scene)))[name]
     efficiency = filled(drive.gear.efficiency)
     torque = force * (efficiency if force < 0 else 1 / efficiency) / (drive.motor.count * turns(drive))
     return abs(torque) / filled(drive.motor.rated_torque)

@@ -16,7 +16,7 @@ from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.motion import moving
 from ptmcalc.machines.conveyor.plain_start import is_plain
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads, natural_frequencies, start_case, start_duration
+from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads, frequencies_of, start_case, start_duration
 from ptmcalc.machines.conveyor.starting.loads import OF_STARTING, start_loads
 from ptmcalc.machines.conveyor.starting.permitted_starts import PERMITTED, permitted_starts
 from ptmcalc.machines.conveyor.tension_loads import Sides, derived_loads, slip_loads
@@ -46,7 +46,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads["start_time"] = loads["start_time_rigid"]
     if len(spec.all_drives) == 1:
         loads |= _of_the_drive(next(iter(spec.all_drives)), loads)
-    loop = () if case.line.weight_at_tail else natural_frequencies(case.masses, spec.takeup_weight)
+    loop = () if case.line.weight_at_tail else frequencies_of(case, spec.takeup_weight)
     for number, frequency in enumerate(loop, 1):
         loads[of("natural_frequency", str(number))] = frequency
     window = (0.0, case.held + case.window)

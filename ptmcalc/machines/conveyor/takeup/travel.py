@@ -1,5 +1,7 @@
 """Travel of the take-up by its causes: elastic, thermal and permanent elongation, movement, mounting."""
 
+from collections.abc import Iterator
+
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
@@ -7,6 +9,7 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.drives import running
+from ptmcalc.machines.conveyor.loading import Filling, choices, in_operation, pieces
 from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand
 from ptmcalc.machines.conveyor.resistances import filled
@@ -18,10 +21,13 @@ from ptmcalc.machines.conveyor.takeup.loads import SHARES
 def shares(spec: Conveyor) -> dict[str, float]:
     """Shares of the take-up travel that are equal in all scenes [m]; formulas in `run`."""
     takeup = spec.takeup
-    full, empty = (running(spec, Run(load=load)) for load in ("full", "empty"))
+    empty, *loaded = (running(spec, Run(), filling) for filling in _fillings(spec))
+    full = loaded[-1]
     half = (full.back.length + full.carry.length) / 2
     rest = _mean(empty, at_rest=True)
-    ways = [0.0] if full.fixed_length else [0.0, *(half * (_mean(one) - rest) / one.stiffness for one in (full, empty))]
+    ways = (
+        [0.0] if full.fixed_length else [0.0, *(half * (_mean(one) - rest) / one.stiffness for one in (*loaded, empty))]
+    )
     parts = (
         max(ways) - min(ways),
         half * filled(takeup.thermal_expansion) * filled(takeup.temperature_range),
@@ -29,6 +35,13 @@ def shares(spec: Conveyor) -> dict[str, float]:
         filled(takeup.installation),
     )
     return dict(zip(SHARES, parts, strict=True))
+
+
+def _fillings(spec: Conveyor) -> Iterator[Filling]:
+    """The empty belt, and the belt with every choice of its loading points."""
+    lengths = pieces(spec)
+    for names in choices(in_operation(spec, Run())):
+        yield [tuple(name for name in one.points if name in names) for one in lengths]
 
 
 def _mean(line: BeltLine, at_rest: bool = False) -> float:
@@ -55,8 +68,9 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
     The movement s_m is 0 in steady running; the simulation of a start, a stop or a jam gives it and the sum of that
     scene. The rest is the empty belt without friction at the tension of the take-up. A fixed take-up keeps the length
-    of the belt, and with it the mean tension: its elastic share is 0. The movement of a start of a relaxed belt
-    contains the elastic share too: the sum is then on the safe side.
+    of the belt, and with it the mean tension: its elastic share is 0. With loading points, s_full is that of each
+    choice of them. The movement of a start of a relaxed belt contains the elastic share too: the sum is then on the
+    safe side.
 
     **Range** a gravity or a fixed take-up on two falls; one stiffness all round; files that give the travel and one of
     its shares.

@@ -144,7 +144,8 @@ class _After:
             "tension_max": high,
             "tension_min": min(lows),
         }
-        worst |= tension_loads.derived_loads(line, high, lows)
+        courses = tuple((_X * line.strand(which).length, self.least[which]) for which in _STRANDS)
+        worst |= tension_loads.derived_loads(line, high, lows, tension_loads.spans_at(line, courses))
         needed = line.tail_pull + self._together((CARRY, -1), (RETURN, 0), (1.0, -1.0))
         worst["starting_force_needed"] = needed
         worst["starting_reserve"] = starting_force(self.spec) / needed if needed > 0 else math.inf

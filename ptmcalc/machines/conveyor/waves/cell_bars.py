@@ -210,7 +210,8 @@ def _of_laws(case: Moving, grids: Grids, found: Mapping[str, Interval], front: f
     if "belt_safety_min" in fine:
         made |= load_errors.moved_safety(line, loads, found["tension_max"].high)
     if "sag_relative_max" in fine:
-        strands = max(_of_trace(grids, name) for name in (LOW_RETURN, LOW_CARRY))
+        names = (LOW_RETURN, LOW_CARRY, LOW_PLACES) if line.by_length else (LOW_RETURN, LOW_CARRY)
+        strands = max(_of_trace(grids, name) for name in names)
         made["sag_relative_max"] = load_errors.moved_sag(line, loads, max(strands, front))
     if "starting_reserve" in fine:
         made["starting_reserve"] = load_errors.moved_drive(loads, found["starting_force_needed"].high)[

@@ -137,7 +137,8 @@ def _of_belt(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
     for least, most, strand, bend in bend_names(case.spec, case.scene):
         cells = _cells_between(line, ready, strand, bend.start, bend.end)
         values[least], values[most] = (float(drawn.lowest[cells].min()), {}), (float(drawn.highest[cells].max()), {})
-    for name, value in tension_loads.derived_loads(line, high[0], tuple(one[0] for one in lows)).items():
+    lengths = tension_loads.spans_at(line, _lowest_along(line, drawn, ready))
+    for name, value in tension_loads.derived_loads(line, high[0], tuple(one[0] for one in lows), lengths).items():
         values[name] = value, {}
     traces = found.traces
     traces |= {
@@ -148,6 +149,20 @@ def _of_belt(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
         LOW_CARRY: Trace(drawn.lows[:, CARRY], step, -1),
         LOW_PLACES: Trace(drawn.lowest, 1 / len(drawn.lowest), -1),
     }
+
+
+def _lowest_along(line: BeltLine, drawn: Drawn, ready: Set) -> tuple[tuple[FloatArray, FloatArray], ...]:
+    """Places along the return and the carrying strand, from their upstream ends, and the lowest tensions there."""
+    tail, middles, head, low = ready.course.tail, ready.course.middles, drawn.head.tensions, drawn.tail.tensions
+    ends = (head[:, -1], low[:, 0]), (low[:, -1], head[:, 0])
+    parts = (drawn.lowest[:tail], middles[:tail]), (drawn.lowest[tail:], middles[tail:] - line.back.length)
+    return tuple(
+        (
+            np.concatenate([[0.0], places, [line.strand(which).length]]),
+            np.concatenate([[first.min()], lowest, [last.min()]]),
+        )
+        for which, ((lowest, places), (first, last)) in enumerate(zip(parts, ends, strict=True))
+    )
 
 
 Placed = tuple[float, float, float]

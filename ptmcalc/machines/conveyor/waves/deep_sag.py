@@ -45,6 +45,15 @@ def limits(case: Moving) -> tuple[float, float]:
     return back, carry
 
 
+def _least_limits(case: Moving) -> tuple[float, float]:
+    """The same of the lightest spans, where lengths have loads of their own."""
+    if not case.line.by_length:
+        return limits(case)
+    lightest = [min(one.span_weights, default=0.0) for one in (case.line.back, case.line.carry)]
+    back, carry = (sag.tension_at_sag(span, sag.DEEPEST) for span in lightest)
+    return back, carry
+
+
 def too_deep(case: Moving, drawn: Drawn) -> bool:
     """Whether a strand of a belt whose sag is known came below its limit."""
     return bool(_sagging(case, drawn))
@@ -108,9 +117,10 @@ def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
     **Error** the factor 2 is an engineering choice; the peaks of such a run have no bound.
     **Source** sag of a shallow parabola goes with 1/S.
     """
-    doubtless = [limit / 2 for limit in limits(case)]
+    doubtless = [limit / 2 for limit in _least_limits(case)]
     lows = [(one.back_min, one.carry_min) for one in grids]
     for strand, (limit, kept) in enumerate(zip(doubtless, tension_loads.slack_limits(case.line), strict=True)):
+        kept = min(kept, 2 * limit * sag.DEEPEST / case.line.slack_sag) if case.line.by_length else kept
         if limit > 0 and lows and all(low[strand].value < min(limit, kept) for low in lows):
             low = lows[-1][strand]
             does = f"at {low.time:.3g} s its tension is lowest, {low.place:.4g} m after the drive pulley"

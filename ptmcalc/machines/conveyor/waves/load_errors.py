@@ -224,12 +224,13 @@ def moved_safety(line: BeltLine, loads: Mapping[str, Estimate], change: float) -
 
 
 def moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> Interval:
-    """The largest sag is that of one strand at its lowest tension; the other one has no less tension than it takes for
-    as much sag, nor less than the lowest of all."""
+    """The largest sag is that of one strand, or of one length with its own load, at its lowest tension; the others have
+    no less tension than it takes for as much sag, nor less than the lowest of all."""
     ratio = loads["sag_relative_max"].value
     lowest = loads["tension_min"].value if "tension_min" in loads else -np.inf
     highs, lows = [], []
-    for span in (line.back.span_weight, line.carry.span_weight):
+    spans = (line.back.span_weight, line.carry.span_weight)
+    for span in {*line.back.span_weights, *line.carry.span_weights} if line.by_length else spans:
         if span:
             tension = float(sag.tension_at_sag(span, ratio))
             highs.append(float(sag.sag_ratio(span, max(tension, lowest) - change)))
