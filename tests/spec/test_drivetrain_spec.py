@@ -822,7 +822,7 @@ def test_the_file_with_everything_has_every_key_of_every_part() -> None:
     ]
     wanted = {_declared(model, key) for model in models for key in keys_of(model)}
     assert len(wanted) > 100
-    of_any_kind = {("MachineSpec", key) for key in ("accuracy", "tolerances", "waive")} | {
+    of_any_kind = {("MachineSpec", key) for key in ("accuracy", "project", "tolerances", "waive")} | {
         ("TransientScene", "window_factor")
     }
     assert wanted - set(_keys(Drivetrain, DATA)) == of_any_kind

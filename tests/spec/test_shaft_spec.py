@@ -686,7 +686,7 @@ def test_the_files_of_these_tests_use_every_key() -> None:
     wanted = {_declared(model, key) for model in models for key in keys_of(model)}
     used = {key for text in (EVERYTHING, *SOUND) for key in _keys(Shaft, yaml.safe_load(text))}
     assert len(wanted) > 70
-    of_any_kind = {("MachineSpec", key) for key in ("accuracy", "tolerances", "waive")}
+    of_any_kind = {("MachineSpec", key) for key in ("accuracy", "project", "tolerances", "waive")}
     assert wanted - used == of_any_kind | {("Harmonic", "sine")}
 
 
