@@ -21,7 +21,6 @@ BY_TEST = {
     "tests/edges/test_motor_curves.py": 8,
     "tests/edges/test_relations.py": 8,
     "tests/machines/hoist/test_motion.py::test_absurd_sizes_end_in_a_report_of_numbers": 6,
-    "tests/machines/conveyor/test_permitted_starts.py::test_starts_along_a_curve_by_an_ode_solver": 6,
     # One formula or one motion over a grid of its parameters; each value runs through the same lines.
     "tests/laws/test_belt_modes.py::TestTrace": 4,
     "tests/laws/test_rail.py::TestTwoMasses::test_no_load_at_the_wheels_is_beyond_the_sum_of_both": 3,
