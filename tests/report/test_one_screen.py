@@ -8,6 +8,7 @@ from unittest import mock
 
 import pytest
 from support.command import ROOT
+from support.turns import share_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.span import dotted
@@ -32,7 +33,7 @@ TOO_WEAK = {
 """One machine of each kind and type, a change of one key that a check does not let pass, the key whose value would."""
 
 
-@pytest.fixture(scope="module", params=list(TOO_WEAK))
+@pytest.fixture(scope="module", params=share_of(3, list(TOO_WEAK)))
 def machine(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 

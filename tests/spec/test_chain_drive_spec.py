@@ -278,7 +278,7 @@ class TestNumberOfAChain:
         found = []
         for chain in ({"number": "16B-1", "damping": by_hand["damping"]}, by_hand):
             loaded = load_text(yaml.safe_dump(changed(ROLLER, chain=chain)).encode(), "case.yaml")
-            (scene,) = check(loaded, Options()).scenes
+            (scene,) = check(loaded, Options(repairs=False)).scenes
             found.append({one.info.name: one.estimate.value for one in scene.loads})
         assert found[0].keys() == found[1].keys()
         for name, value in found[0].items():

@@ -16,6 +16,7 @@ from ptmcalc.cli.main import main
 from ptmcalc.contract.report import FileReport
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_file
+from support.kept_runs import kept_runs
 
 ROOT = Path(__file__).parents[2]
 
@@ -30,11 +31,12 @@ class Done:
 
 
 def ptmcalc(*arguments: str | Path) -> Done:
-    """The entry point in this process: every exit status goes through it."""
+    """The entry point in this process: every exit status goes through it. Runs of solvers are kept from one to the
+    next (`support.kept_runs`)."""
     out, err, status = io.StringIO(), io.StringIO(), 0
     words = mock.patch.object(sys, "argv", ["ptmcalc", *map(str, arguments)])
     screen = mock.patch.dict(os.environ, {"COLUMNS": "120"})
-    with words, screen, redirect_stdout(out), redirect_stderr(err):
+    with words, screen, kept_runs(), redirect_stdout(out), redirect_stderr(err):
         try:
             main()
         except SystemExit as stop:
@@ -70,4 +72,5 @@ def python(*arguments: str | Path, cwd: Path = ROOT, env: Mapping[str, str] | No
 @cache
 def report_of_file(path: str) -> FileReport:
     """The report of a file of the project, named from its top folder; made once, as it is immutable."""
-    return check(load_file(ROOT / path, path), Options(ledger=True))
+    with kept_runs():
+        return check(load_file(ROOT / path, path), Options(ledger=True))

@@ -4,6 +4,9 @@
 
 means: CNV101 fails in that scene (in any scene without the bracket) and blames this line. `# pass CNV101` states
 a pass and no line. A block without such a comment must pass as a whole. `check` and `ptmcalc` do the rest.
+
+The first block of a page may leave assumed values to the program, which tries both ends of their intervals; the others
+declare them, for each end is one more run.
 """
 
 import re

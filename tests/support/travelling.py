@@ -69,7 +69,7 @@ def value(data: dict[str, Any], load: str, name: str = "") -> float:
 
 def text_report(data: dict[str, Any]) -> Any:
     """The report of a file that may be faulty."""
-    return check(load_text(yaml.safe_dump(data, sort_keys=False).encode(), "case.yaml"), Options())
+    return check(load_text(yaml.safe_dump(data, sort_keys=False).encode(), "case.yaml"), Options(repairs=False))
 
 
 def as_file(one: Machine) -> dict[str, Any]:

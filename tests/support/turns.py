@@ -12,20 +12,48 @@ import pytest
 from support.command import ROOT
 
 BY_TEST = {
-    "tests/stability": 4,
-    "tests/edges/test_error_bars_meet.py": 4,
-    "tests/edges/test_forced_effects.py": 4,
-    "tests/edges/test_found_is_said.py": 4,
-    "tests/edges/test_longer_windows.py": 4,
-    "tests/edges/test_motor_curves.py": 4,
-    "tests/edges/test_relations.py": 4,
-    "tests/numerics/test_belt_march.py": 4,
-    "tests/numerics/test_rope.py": 4,
-    "tests/house/test_docs.py": 3,
+    # Random or extreme machines, each like the next.
+    "tests/stability": 8,
+    "tests/edges/test_error_bars_meet.py": 8,
+    "tests/edges/test_forced_effects.py": 8,
+    "tests/edges/test_found_is_said.py": 8,
+    "tests/edges/test_longer_windows.py": 8,
+    "tests/edges/test_motor_curves.py": 8,
+    "tests/edges/test_relations.py": 8,
+    "tests/machines/hoist/test_motion.py::test_absurd_sizes_end_in_a_report_of_numbers": 6,
+    # One formula or one motion over a grid of its parameters; each value runs through the same lines.
+    "tests/laws/test_belt_modes.py::TestTrace": 4,
+    "tests/laws/test_rail.py::TestTwoMasses::test_no_load_at_the_wheels_is_beyond_the_sum_of_both": 3,
+    "tests/machines/conveyor/test_scenes.py::test_every_load_is_that_of_finite_elements": 3,
+    "tests/machines/conveyor/test_static_starts.py::test_a_start_at_the_margins_neither_slips_nor_goes_slack": 4,
+    "tests/machines/conveyor/test_torque_following.py::test_one_drive_leads_and_the_torques_have_one_ratio": 3,
+    "tests/numerics/test_belt_give.py::test_sag_damping_and_friction_agree_with_finite_elements": 4,
+    "tests/numerics/test_belt_march.py": 6,
+    "tests/numerics/test_belt_travel.py::test_finite_differences_come_to_the_same_tensions": 5,
+    "tests/numerics/test_driven_modes.py::test_extremes_are_those_of_an_integration": 3,
+    "tests/numerics/test_glide.py::TestSums::test_extremes_are_those_of_the_closed_form": 4,
+    "tests/numerics/test_glide.py::TestSums::test_runs_that_resolve_every_period_find_the_same": 4,
+    "tests/numerics/test_harmonic.py::TestErrorsAreBounds::test_of_random_chains": 4,
+    "tests/numerics/test_harmonic.py::TestOneFrequency::test_forces_are_those_of_finite_elements": 4,
+    "tests/numerics/test_mode_sum.py::test_samples_are_those_of_the_equations_of_motion": 5,
+    "tests/numerics/test_rope.py": 6,
+    "tests/numerics/test_train_random.py": 4,
+    # The same statement of one machine or check after another; the statement is made by lines that all of them share.
+    "tests/cli/test_decode_command.py::test_a_strange_record_ends_in_numbers_or_in_a_message": 6,
+    "tests/cli/test_scale_command.py::test_every_kind_has_a_model_by_every_law": 3,
+    "tests/engine/test_points.py::test_lanes_are_files_of_their_own": 4,
+    "tests/engine/test_repairs.py::test_a_repair_passes_and_a_step_the_wrong_way_does_not": 4,
+    "tests/engine/test_scale.py::test_the_model_is_the_machine_with_every_value_at_its_scale": 4,
+    "tests/machines/crane/test_stacker_blame.py::test_what_governs_is_blamed_and_its_repair_passes": 3,
+    "tests/machines/crane/test_stacker_combinations.py::test_a_change_of_an_event_changes_its_combinations": 3,
+    "tests/report/test_html.py::test_a_page_is_sound": 4,
+    # Pages whose commands run, and stored examples: what they print has tests of its own.
+    "tests/house/test_docs.py": 6,
+    "tests/house/test_explain.py::test_an_example_with_a_file_of_its_own_says_what_is_said": 3,
 }
-"""Samples of random or extreme machines, and pages whose commands run: one test in so many runs at each commit."""
-BY_FILE = {"tests/coverage": 3}
-"""The same of whole files, whose tests share one sample."""
+"""One test in so many runs at each commit: of a room, of a file, or of what is named in it."""
+BY_FILE = {"tests/coverage": 6}
+"""The same of whole files, whose tests share one sample of random machines."""
 
 
 @cache
@@ -51,6 +79,14 @@ def first_of(count: int, inputs: Sequence[Any]) -> list[Any]:
     return [*inputs[:count], *(pytest.param(one, marks=pytest.mark.study) for one in inputs[count:])]
 
 
+def share_of(turns: int, inputs: Sequence[Any]) -> list[Any]:
+    """Parameters of a fixture that costs much: one in so many, another one at every commit, and the others as a
+    study."""
+    return [
+        pytest.param(one, marks=pytest.mark.study if (k + commit()) % turns else ()) for k, one in enumerate(inputs)
+    ]
+
+
 def later(tests: Iterable[str], seconds: Mapping[str, float]) -> set[str]:
     """Of the names of tests, those of `BY_TEST` and `BY_FILE` whose turn is at another commit.
 
@@ -64,10 +100,17 @@ def later(tests: Iterable[str], seconds: Mapping[str, float]) -> set[str]:
         files = sorted((file for file in places if _within(file, room)), key=lambda file: (-seconds.get(file, 0), file))
         found.update(name for k, file in enumerate(files) if (k + commit()) % turns for name in places[file])
     for room, turns in BY_TEST.items():
-        names = [name for file in sorted(places) if _within(file, room) for name in places[file]]
+        path, _, test = room.partition("::")
+        files = sorted(file for file in places if _within(file, path))
+        names = [name for file in files for name in places[file] if not test or _named(name, test)]
         found.update(name for k, name in enumerate(names) if (k + commit()) % turns)
     return found
 
 
 def _within(file: str, room: str) -> bool:
     return PurePosixPath(file).is_relative_to(room)
+
+
+def _named(name: str, test: str) -> bool:
+    """Whether a test is one of a function or of a class."""
+    return name.partition("::")[2].partition("[")[0].split("::")[: test.count("::") + 1] == test.split("::")

@@ -35,8 +35,8 @@ def _verdicts(report: FileReport, code: str) -> dict[str, str]:
     return {scene.name: str(one.verdict) for scene in report.scenes for one in scene.checks if one.code == code}
 
 
-def _checked(data: dict[str, Any], **options: Any) -> FileReport:
-    return check(load_text(yaml.safe_dump(data, sort_keys=False).encode(), "case.yaml"), Options(**options))
+def _checked(data: dict[str, Any], *, repairs: bool = False) -> FileReport:
+    return check(load_text(yaml.safe_dump(data, sort_keys=False).encode(), "case.yaml"), Options(repairs=repairs))
 
 
 class TestEmptyCarriage:

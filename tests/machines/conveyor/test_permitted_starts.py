@@ -21,6 +21,8 @@ STIFF = Rig(
 """A belt without elongation: the drum has the speed of the rigid conveyor."""
 STILL = {"checks": {code: {"off": "not of starts"} for code in ("CNV101", "CNV104", "CNV105", "CNV118", "CNV121")}}
 FULL = {"type": "start", "profile": {"shape": "step"}}
+SHORT = 0.5
+"""Predicted seconds: the permitted starts are those of the rigid conveyor, no simulation of the belt changes them."""
 
 
 def started(rig: Rig, power: float, asked: float | None = 3.0, **motor: Any) -> SceneReport:
@@ -32,7 +34,7 @@ def started(rig: Rig, power: float, asked: float | None = 3.0, **motor: Any) -> 
     for drive in data["drives"].values() if "drives" in data else [data["drive"]]:
         drive["motor"] |= {"power": f"{power} W", "speed": f"{rated} rad/s", "no_load_speed": f"{FAST} rad/s"}
         drive["motor"] |= {"breakdown_ratio": 2.4} | {key: one for key, one in permitted.items() if one is not None}
-    return scene_of(report_of(data))
+    return scene_of(report_of(data, budget=SHORT))
 
 
 def load_factor(load: float, cooling: str = "self_ventilated_closed") -> float:

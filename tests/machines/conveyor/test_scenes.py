@@ -68,7 +68,7 @@ def window_of(scene: SceneReport) -> float:
 @functools.cache
 def told(rig_name: str, scene_key: str) -> SceneReport:
     rig, scene, _ = CASES[rig_name, scene_key]
-    return scene_of(report_of(rig.data(scene)))
+    return scene_of(report_of(rig.data(scene), ends=False))
 
 
 def start_of(rise: Callable[[float], float] = ramp, **options: Any) -> Callable[[Rig, float, int], Any]:

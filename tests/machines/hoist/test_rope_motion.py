@@ -24,8 +24,15 @@ height: 300 m
 speed: {main: 0.8 m/s}
 reeving: {falls: 1, sheave_efficiency: 0.98}
 rope: {diameter: 26 mm, area: 290 mm^2, modulus: 105 GPa, mass: 2.6 kg/m}
-drum: {diameter: 800 mm, length: 1500 mm, layers: 4, flange_height: 160 mm, inertia: 180 kg*m^2}
-gearbox: {ratio: 50, efficiency: 0.93}
+drum:
+  diameter: 800 mm
+  length: 1500 mm
+  layers: 4
+  flange_height: 160 mm
+  inertia: 180 kg*m^2
+  dead_wraps: 3
+  pitch: 29.12 mm
+gearbox: {ratio: 50, efficiency: 0.93, reverse_efficiency: 0.924731182795699, damping: 0.03}
 motor: {inertia: 0.7 kg*m^2, coupling_inertia: 0.2 kg*m^2, mean_starting_torque: 800 N*m}
 brake: {torque: 1000 N*m, delay: 0.1 s, rise_time: 0.1 s}
 class: {mechanism: M5, hoisting: HC1}

@@ -178,12 +178,12 @@ def _tables(machine: Machine) -> Callable[[FloatArray], tuple[FloatArray, FloatA
     drive = machine.drive
     inertia = mechanism + drive.efficiency * drive.ratio**2 * drive.motor_inertia
     table = np.stack([inertia, slope, machine.potential_torque(place % machine.period)])
+    rises = np.diff(table, axis=1)
 
     def fields(angle: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         x = (angle % machine.period) / machine.period * _TABLE
-        k = np.clip(x.astype(np.intp), 0, _TABLE - 1)
-        low = table[:, k]
-        found = low + (table[:, k + 1] - low) * (x - k)
+        k = np.minimum(np.maximum(x.astype(np.intp), 0), _TABLE - 1)  # `clip` and brackets take twice as long
+        found = table.take(k, axis=1) + rises.take(k, axis=1) * (x - k)
         return found[0], found[1], found[2]
 
     return fields
