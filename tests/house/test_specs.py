@@ -36,6 +36,7 @@ MOST_EVALUATIONS = {
     "conveyor/fluid_coupling_conveyor.yaml": 60_000_000,
     "conveyor/three_converters_conveyor.yaml": 100_000_000,
     "chain_drive.yaml": 100_000,
+    "chain_drive/driven_tail.yaml": 3_000_000,
     "chain_drive/roller_drive.yaml": 10_000,
     "chain_drive/inclined_scraper.yaml": 100_000,
     "chain_drive/roller_chain_by_number.yaml": 10_000,
