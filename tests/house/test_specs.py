@@ -37,6 +37,7 @@ MOST_EVALUATIONS = {
     "conveyor/three_converters_conveyor.yaml": 100_000_000,
     "conveyor/two_loading_points.yaml": 10_000_000,
     "chain_drive.yaml": 100_000,
+    "chain_drive/driven_tail.yaml": 3_000_000,
     "chain_drive/roller_drive.yaml": 10_000,
     "chain_drive/inclined_scraper.yaml": 100_000,
     "chain_drive/roller_chain_by_number.yaml": 10_000,

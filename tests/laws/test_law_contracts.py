@@ -44,6 +44,7 @@ from ptmcalc.laws import (
     equalising,
     fork,
     gearing,
+    held_strands,
     hoist_class,
     hoisting,
     horizontal_curve,
@@ -92,6 +93,7 @@ from ptmcalc.laws import (
     winding,
     wire_rope,
 )
+from ptmcalc.laws.held_strands import HeldStrands
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.laws.mast_modes import Mast
 
@@ -159,6 +161,17 @@ LAWS = all_laws()
 FIXED_LOOP = LoopMasses(3e3, 9e3, 400.0, 5e3, 1e-5, 3e-5, fixed_length=True, imposed_speed=False)
 GRAVITY_LOOP = replace(FIXED_LOOP, fixed_length=False)
 LOOPS = [replace(loop, imposed_speed=speed) for loop in (FIXED_LOOP, GRAVITY_LOOP) for speed in (False, True)]
+HELD = [
+    HeldStrands(3e3, 9e3, 400.0, 5e3, 1e-5, 3e-5, fixed_length=fixed, imposed_speed=speed)
+    for fixed in (False, True)
+    for speed in (False, True)
+]
+HELD_SECTIONS = [(loop, strand, 0.3) for loop in HELD for strand in (RETURN, CARRY)]
+HELD_MODES = [
+    (loop, np.array([5.0, 9.0, 12.0]), strand, np.array([0.0, 0.3]))
+    for loop in HELD[1::2]
+    for strand in (RETURN, CARRY)
+]
 SECTIONS = [(loop, strand, 0.3) for loop in LOOPS for strand in (RETURN, CARRY)]
 RISES = ("linear", "exponential")
 DAMPINGS = (0.0, 0.02, 1.0, 1.7)
@@ -308,6 +321,14 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     loop_bounds.lowest_frequency_bound: [(loop,) for loop in LOOPS],
     loop_bounds.drive_lead: [(loop, 0.4) for loop in LOOPS],
     loop_bounds.window_leak: [(3.0, 2.5), (0.1, 2.5)],
+    held_strands.quasi_static: HELD_SECTIONS,
+    held_strands.tension_green: HELD_SECTIONS,
+    held_strands.stray: HELD_SECTIONS,
+    held_strands.lowest_frequency: [(loop,) for loop in HELD],
+    held_strands.natural_frequencies: [(loop, 5) for loop in HELD],
+    held_strands.modal_tensions: HELD_MODES,
+    held_strands.modal_shapes: HELD_MODES,
+    held_strands.modal_rest: HELD_MODES,
     pendulum.swing_frequency: [(7.0, 9.81)],
     pendulum.swing_period: [(7.0, 9.81, 0.0), (7.0, 9.81, 1.2)],
     pendulum.driven_frequency: [(7.0, 9.81, 5e3, 2e3)],
@@ -973,7 +994,7 @@ def test_every_number_has_a_unit(law: Law) -> None:
     numbers = {
         name
         for name, p in parameters.items()
-        if p.annotation not in (str, bool, int, LoopMasses, Mast, start_profile.Shape)
+        if p.annotation not in (str, bool, int, LoopMasses, HeldStrands, Mast, start_profile.Shape)
     }
     assert set(argument_units(law)) == numbers
     for unit in [*argument_units(law).values(), *units(section(law, "Returns"))]:

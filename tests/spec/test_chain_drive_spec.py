@@ -136,6 +136,17 @@ class TestBadInput:
     def test_a_phase_of_a_tail_that_is_not_driven(self) -> None:
         faulty(changed(CH_05, layout__tail__phase=0.3), "layout", "tail", "phase")
 
+    def test_a_share_of_a_tail_that_is_not_driven(self) -> None:
+        assert "driven: on" in faulty(changed(CH_05, layout__tail__share=0.3), "layout", "tail", "share").hint
+
+    def test_a_tail_that_is_synchronised_without_a_drive(self) -> None:
+        faulty(changed(CH_05, layout__tail__synchronised="on"), "layout", "tail", "synchronised")
+
+    @pytest.mark.parametrize("share", [-0.1, 1.1])
+    def test_a_share_beyond_the_whole(self, share: float) -> None:
+        tail = {"teeth": 8, "driven": "on", "share": share}
+        faulty(changed(CH_05, layout__tail=tail), "layout", "tail", "share")
+
     def test_power_and_torque(self) -> None:
         faulty(changed(ROLLER, layout__torque="2 kN*m"), "layout", "torque")
 

@@ -5,10 +5,12 @@ from dataclasses import replace
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
+from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.motor_starts import constant_losses
 from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import chain_selection
+from ptmcalc.machines.chain_drive.chain_data import TailSprocket
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import drive_of, filled
@@ -114,6 +116,39 @@ def _sprocket(spec: ChainDrive) -> Interval:
     return Interval(0.0, _ROTOR_SHARE * motor.count * filled(motor.inertia) * spec.drive.gear.ratio**2)
 
 
+_SLIP = 0.3
+"""Tolerance of the rated slip of a motor relative to it [1]: IEC 60034-1, 20 %, below 1 kW 30 %. The larger one covers
+gears and unequal heating. A larger value widens the interval of the share of a driven tail."""
+
+
+def _own_slip_lines(spec: ChainDrive, tail: TailSprocket) -> bool:
+    """Whether both drives share their load by the slip of several equal motors on the mains: the teeth keep both
+    sprockets at one speed, and so both motors where the sprockets are equal."""
+    drive = spec.drive
+    if drive is None or drive.motor.count == 1 or tail.synchronised == "on" or drive.fluid_coupling is not None:
+        return False
+    if any(isinstance(scene, Start) and scene.profile.imposes_speed for scene in spec.all_scenes):
+        return False  # on converters
+    motor = drive.motor
+    slips = motor.has_plate or (motor.curve is not None and not isinstance(motor.curve, ConverterMotor))
+    return slips and tail.teeth in (None, spec.sprocket.teeth)
+
+
+def _of_driven_tail(tail: TailSprocket, spec: ChainDrive) -> Assumption[ChainDrive]:
+    """Share of a driven tail in the effective chain pull.
+
+    F_i = c_i (n_0 - n), c_i = M_n/s_i, one n:   s = (k/s_t)/(k/s_t + (N - k)/s_h),   1 <= k <= N - 1 of N motors
+    """
+    interval, source = Interval(0.0, 1.0), "the control of both drives or the position of a shaft sets it: 0 to 1"
+    if _own_slip_lines(spec, tail):
+        others = drive_of(spec).motor.count - 1
+        least = (1 - _SLIP) / (1 - _SLIP + others * (1 + _SLIP))
+        interval = Interval(least, 1 - least)
+        source = "equal motors on their slip lines, one or more at either sprocket, slips within 30 % (IEC 60034-1)"
+    value = 0.5 if tail.driven == "on" else None
+    return Assumption(("layout", "tail", "share"), units.RATIO, lambda spec: value, lambda spec: interval, source)
+
+
 _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
     Assumption(
         ("layout", "tail", "inertia"),
@@ -211,6 +246,7 @@ def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
     yield from _MOVED
     if isinstance(spec.layout, ConveyorLayout):
         yield from _OF_A_CONVEYOR
+        yield _of_driven_tail(spec.layout.tail, spec)
     else:
         yield _of_two_shafts(spec.layout)
         yield from _sag_in_service(spec, spec.layout)

@@ -237,16 +237,29 @@ class TailSprocket(Fragment):
     inertia: Annotated[Inertia | None, Assumed()] = None
     """on its own shaft, shaft included; 0 when left out"""
     driven: Literal["on", "off"] = "off"
-    """`on`: a second drive at constant speed"""
+    """`on`: a second drive turns it; `drive` and `brake` are those of both together"""
+    share: Annotated[Fraction | None, Assumed()] = None
+    """share of the effective chain pull that a driven one takes in steady motion; assumed when left out: 0.5, from 0 to
+    1, or by the slip lines of equal motors"""
+    synchronised: Literal["on", "off"] = "off"
+    """`on`: a shaft or a control keeps both sprockets at one speed under any torque, in stops too; needed for the
+    tensions of starts by torque and of stops"""
     phase: Annotated[Fraction | None, Setting("the worst phase when left out")] = None
     """phase of the link joints of a driven one, relative to the drive; the worst phase when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """A sprocket has enough teeth; only a driven one has a phase."""
+        """A sprocket has enough teeth; only a driven one has a phase, takes a share, and keeps a speed."""
         yield from wrong_teeth(given)
-        if "phase" in given and given.word("driven") != "on":
+        if given.word("driven") == "on":
+            return
+        if "phase" in given:
             yield Conflict(("phase",), "only a driven tail has a phase of its own", "delete `phase`, or `driven: on`")
+        if "share" in given:
+            yield Conflict(("share",), "only a driven tail takes a share", "delete `share`, or write `driven: on`")
+        if given.word("synchronised") == "on":
+            hint = "delete `synchronised`, or write `driven: on`"
+            yield Conflict(("synchronised",), "only a driven tail is synchronised", hint)
 
 
 class DrivenSprocket(Sprocket):

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ptmcalc.base.memory import remembered
 from ptmcalc.base.span import KeyPath
-from ptmcalc.laws import belt_modes, chain_selection, inertia, motor, sag, sprocket
+from ptmcalc.laws import belt_modes, chain_selection, held_strands, inertia, motor, sag, sprocket
+from ptmcalc.laws.held_strands import HeldStrands
 from ptmcalc.laws.loop_bounds import LoopMasses
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Drive
@@ -179,10 +180,17 @@ class ChainLine:
     speed: float
     fixed_length: bool
     takeup_mass: float
+    tail_pull: float = 0.0
+    """what a driven tail pulls in steady motion [N]"""
 
     @property
     def static_resistance(self) -> float:
-        """W: what the drive pulls in steady motion, negative where the load drives [N]."""
+        """W: what all drives pull in steady motion, negative where the load drives [N]."""
+        return self.head_pull + self.tail_pull
+
+    @property
+    def head_pull(self) -> float:
+        """What the driving sprocket pulls in steady motion [N]."""
         return self.working.end - self.back.begin
 
     @property
@@ -230,7 +238,12 @@ def load_line_mass(spec: ChainDrive, scene: ChainScene) -> float:
 
 
 def chain_line(spec: ChainDrive, scene: ChainScene, grown: float = 1.0) -> ChainLine:
-    """The strands of a scene in steady motion, `grown` times the running resistance."""
+    """The strands of a scene in steady motion, `grown` times the running resistance.
+
+        T_1 = take-up, T_2 = T_1 + W_return, T_3 = T_2 + F - s W, T_4 = T_3 + W_working,   W = W_return + F + W_working
+
+    s is the share of a driven tail, 0 without one; the driving sprocket pulls (1 - s) W = T_4 - T_1.
+    """
     if isinstance(spec.layout, TwoShafts):
         return _between_shafts(spec, spec.layout, scene)
     return _conveyor(spec, spec.layout, scene, grown)
@@ -246,22 +259,23 @@ def _conveyor(spec: ChainDrive, layout: ConveyorLayout, scene: ChainScene, grown
     drag_on = factor * (given.coefficient * chain + rubbing * load) * g * level
     down, up = -chain * g * layout.lift, (chain + load) * g * layout.lift
     rises = (drag_back + down, drag_on + up)
+    pull = filled(layout.tail.share) * (sum(rises) + given.force) if layout.tail.driven == "on" else 0.0
+    jump = given.force - pull  # where the chain passes the tail
     run_off = layout.takeup.tension
     if layout.takeup.type == "screw":  # the mean of both linear courses
-        run_off -= (rises[0] / 2 + rises[0] + given.force + rises[1] / 2) / 2
+        run_off -= (rises[0] / 2 + rises[0] + jump + rises[1] / 2) / 2
     at_tail = run_off + rises[0]
     ea = stiffness(spec)
     return ChainLine(
         back=Strand(layout.length, chain, ea, run_off, at_tail, drag_back, down),
-        working=Strand(
-            layout.length, chain + load, ea, at_tail + given.force, at_tail + given.force + rises[1], drag_on, up
-        ),
+        working=Strand(layout.length, chain + load, ea, at_tail + jump, at_tail + jump + rises[1], drag_on, up),
         tail_mass=tail_mass(spec),
         tail_force=given.force,
         chain_mass=chain,
         speed=spec.speed,
         fixed_length=layout.takeup.type == "screw",
         takeup_mass=0.0 if spec.effects.get("takeup_mass") == "off" else layout.takeup.mass or 0.0,
+        tail_pull=pull,
     )
 
 
@@ -372,9 +386,23 @@ def lines(line: ChainLine, spec: ChainDrive) -> tuple[parts.Line, ...]:
     return tuple(parts.Line(one.length, one.line_mass, one.stiffness) for one in strands)
 
 
+def has_driven_tail(spec: ChainDrive) -> bool:
+    """Whether another drive turns the tail."""
+    return isinstance(spec.layout, ConveyorLayout) and spec.layout.tail.driven == "on"
+
+
+def shares_torque(spec: ChainDrive) -> bool:
+    """Whether both sprockets may turn apart under a torque, so that it counts how their drives share it."""
+    return (
+        isinstance(spec.layout, ConveyorLayout)
+        and spec.layout.tail.driven == "on"
+        and spec.layout.tail.synchronised == "off"
+    )
+
+
 def ends_at_tail(spec: ChainDrive) -> bool:
     """Whether what vibrates ends at the other sprocket."""
-    return isinstance(spec.layout, TwoShafts) or spec.layout.tail.driven == "on"
+    return isinstance(spec.layout, TwoShafts) or has_driven_tail(spec)
 
 
 def undamped(spec: ChainDrive, scene: ChainScene, drive: float = math.inf) -> parts.Chain:
@@ -414,8 +442,8 @@ def natural_frequencies(spec: ChainDrive, scene: ChainScene, drive: float = math
     """The lowest natural circular frequencies of the chain, its sprocket held or its drive a mass at the chain, shape
     (count,) [rad/s]."""
     line = chain_line(spec, scene)
-    if isinstance(spec.layout, ConveyorLayout) and spec.layout.tail.driven == "on":
-        return _held_frequencies(line.working, drive, count)
+    if has_driven_tail(spec):
+        return held_frequencies(line.working, drive, count)
     return np.array(of_loop(loop_masses(spec, scene, drive), line.takeup_mass, count))
 
 
@@ -433,12 +461,15 @@ def loop_masses(spec: ChainDrive, scene: ChainScene, drive: float = math.inf) ->
 
 @remembered(64)
 def of_loop(loop: LoopMasses, takeup_mass: float, count: int) -> tuple[float, ...]:
-    """`belt_modes.natural_frequencies`, which the prices of all settings ask for again and again."""
+    """Natural frequencies by `belt_modes` or `held_strands`, which the prices of all settings ask for over and over."""
+    if isinstance(loop, HeldStrands):
+        return tuple(held_strands.natural_frequencies(loop, count).tolist())
     return tuple(belt_modes.natural_frequencies(loop, takeup_mass, count).tolist())
 
 
-def _held_frequencies(strand: Strand, drive: float, count: int) -> FloatArray:
-    """Of a strand held at its far end: theta = k pi with a held sprocket, theta tan(theta) = m/m_drive else."""
+def held_frequencies(strand: Strand, drive: float, count: int) -> FloatArray:
+    """Of a strand held at its far end: theta = k pi with a held sprocket, theta tan(theta) = m/m_drive else, with the
+    mass of the drive, or of a take-up [kg]."""
     transit = math.sqrt(strand.mass * strand.compliance)
     order = np.arange(count)
     if not math.isfinite(drive):

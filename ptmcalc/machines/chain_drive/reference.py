@@ -25,6 +25,7 @@ from ptmcalc.machines.chain_drive.polygon.excitation import (
     residual,
     undamped,
 )
+from ptmcalc.machines.chain_drive.polygon.return_strand import return_chain, return_place
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.strength import OF_TENSION, QUIET, Answer, Tail, loads_of_tension
 from ptmcalc.numerics.harmonic.parts import FREE, KELVIN_VOIGT, ON_SPROCKET, Chain, Line
@@ -133,10 +134,19 @@ def _extremes(
     return three, _MARGIN * sum((np.abs(three - extremes(course)) for course in coarser), off)
 
 
-def _loads(spec: ChainDrive, scene: Run, most: Sequence[Estimate], least: Sequence[Estimate]) -> dict[str, Found]:
-    """What follows of the extremes at the run-on, the far end, and both sides of a tail where there is one."""
+Sides = Sequence[Sequence[Estimate]]
+"""Largest, then smallest tensions at the places of a chain."""
+
+
+def _loads(spec: ChainDrive, scene: Run, sides: Sides, back: Sides | None = None) -> dict[str, Found]:
+    """What follows of the extremes at the run-on, the far end, and both sides of a tail where there is one; or of those
+    of the return strand by itself, at the tail and at the run-off."""
+    most, least = sides
     tail = Tail(most[2], least[2], most[3], least[3]) if len(most) > 2 else QUIET
-    answer = Answer(most[0], least[0], most[1], least[1], tail, math.inf, None)
+    off = _STILL, _STILL
+    if back is not None:
+        tail, off = Tail(_STILL, _STILL, back[0][0], back[1][0]), (back[0][1], back[1][1])
+    answer = Answer(most[0], least[0], most[1], least[1], tail, math.inf, None, *off)
     loads = loads_of_tension(spec, chain_line(spec, scene), answer)
     loads["tension_dynamic_polygon"], loads["tension_dynamic_polygon_min"] = most[0], least[0]
     loads["tension_dynamic_polygon_far"] = most[1]
@@ -166,7 +176,7 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
             for one in zip(*_extremes(courses, [courses[-1][:, ::2]], largest), strict=True)
         ]
         sides.append([known[0], _STILL, *known[1:]])
-    return Result(_loads(spec, scene, *sides), work=sum(_PIECES))
+    return Result(_loads(spec, scene, sides), work=sum(_PIECES))
 
 
 def valid(spec: ChainDrive, scene: Run) -> Criterion | None:
@@ -273,6 +283,7 @@ def run_harmonics(spec: ChainDrive, scene: Run, carried: frozenset[str], level: 
         (mu_n K - w_n^2 M) z_n = (w_n^2 M - mu_n K) s_n,   S = m u'' + mu K u at a node,   mu the complex modulus
 
     A far end with an unknown phase of its link joints is assessed at the worst phase: the extremes of both ends add up.
+    The return strand in front of a driven tail is a mesh of its own.
 
     **Range** linear strands that stay taut, damped by any complex modulus.
     **Error** as that of the mesh between two engagements, and four times the change by half of the harmonics.
@@ -287,6 +298,24 @@ def run_harmonics(spec: ChainDrive, scene: Run, carried: frozenset[str], level: 
         motions.append((1.0 if on_tail else residual(spec)) * _motion(
             spec, tail_teeth(spec) if on_tail else spec.sprocket.teeth, place or 0.0
         ))  # fmt: skip
+    sides = _sides(spec, chain, motions, place)
+    return Result(_loads(spec, scene, sides, _of_return(spec, scene, carried)), work=sum(_PIECES))
+
+
+def _of_return(spec: ChainDrive, scene: Run, carried: frozenset[str]) -> Sides | None:
+    """Of the return strand in front of a driven tail, which moves its first end; None without one."""
+    chain = return_chain(spec, scene)
+    if chain is None:
+        return None
+    place = return_place(spec)
+    motions = [(FAR in carried) * _motion(spec, tail_teeth(spec), 0.0)]
+    if excites_far(spec, chain):
+        motions.append(residual(spec) * _motion(spec, spec.sprocket.teeth, place or 0.0))
+    return _sides(spec, chain, motions, place)
+
+
+def _sides(spec: ChainDrive, chain: Chain, motions: Sequence[np.ndarray], place: float | None) -> Sides:
+    """Extremes of a chain by three meshes and half of the harmonics; the sum of both motions at a known place."""
     forces = [_forces(spec, chain, pieces, motions) for pieces in _PIECES]
     if place is not None:
         forces = [one.sum(axis=0, keepdims=True) for one in forces]
@@ -298,7 +327,7 @@ def run_harmonics(spec: ChainDrive, scene: Run, carried: frozenset[str], level: 
         sides.append([Estimate.within(float(value), float(bar)) for value, bar in zip(values, bars, strict=True)])
         if not excites_far(spec, chain):
             sides[-1][1] = _STILL
-    return Result(_loads(spec, scene, *sides), work=sum(_PIECES))
+    return sides
 
 
 def valid_harmonics(spec: ChainDrive, scene: Run) -> Criterion | None:

@@ -29,7 +29,9 @@ class Tail:
     back_smallest: Estimate
 
 
-QUIET = Tail(*(4 * (Estimate.exact(0.0),)))
+STILL = Estimate.exact(0.0)
+"""No dynamic tension [N]."""
+QUIET = Tail(STILL, STILL, STILL, STILL)
 """A tail behind which nothing vibrates, or at which the far end is."""
 
 
@@ -45,9 +47,12 @@ class Answer:
     tail: Tail
     bound: float
     place: float | None
+    off_largest: Estimate = STILL
+    off_smallest: Estimate = STILL
+    """of the run-off, where it is the end of a return strand in front of a driven tail"""
 
 
-AT_REST = Answer(*(4 * (Estimate.exact(0.0),)), tail=QUIET, bound=0.0, place=None)
+AT_REST = Answer(STILL, STILL, STILL, STILL, tail=QUIET, bound=0.0, place=None)
 """A chain that runs evenly."""
 
 
@@ -83,14 +88,14 @@ def loads_of_tension(spec: ChainDrive, line: ChainLine, given: Answer) -> dict[s
         moved(given.far_largest, far),
         moved(tail.working_largest, line.working.begin),
         moved(tail.back_largest, line.back.end),
-        Estimate.exact(line.run_off),
+        moved(given.off_largest, line.run_off),
     ]
     least = [
         moved(given.smallest, line.run_on),
         moved(given.far_smallest, far),
         moved(tail.working_smallest, line.working.begin),
         moved(tail.back_smallest, line.back.end),
-        Estimate.exact(line.run_off),
+        moved(given.off_smallest, line.run_off),
     ]
     centrifugal = line.centrifugal
     design = moved(_extreme(most, max), centrifugal)
@@ -145,6 +150,7 @@ def _fatigue(spec: ChainDrive, line: ChainLine, given: Answer, section: float) -
             _between(given.far_smallest, given.far_largest),
             _between(tail.working_smallest, tail.working_largest),
             _between(tail.back_smallest, tail.back_largest),
+            _between(given.off_smallest, given.off_largest),
         ),
         max,
     )

@@ -71,6 +71,35 @@ def test_a_screw_sets_the_mean_round_the_loop() -> None:
     assert c - b == pytest.approx(1e3)
 
 
+DRIVEN = changed(
+    INCLINED,
+    layout__tail={"teeth": 8, "driven": "on", "share": 0.3},
+    layout__resistance__force="1 kN",
+    scenes=[{"type": "run"}],
+)
+
+
+def test_a_driven_tail_takes_its_share_off_the_chain() -> None:
+    """W = 44764.4 N + 1 kN; the tail pulls 13729.3 N. T_2 = 20000 + 800 (0.08 60 cos 20 - 60 sin 20) = 7191.4 N, T_3 =
+    7191.4 + 1000 - 13729.3 = -5537.9 N, T_4 = 52035.1 N = 20000 + 0.7 W."""
+    spec = chain_of(DRIVEN)
+    line = chain_line(spec, spec.all_scenes[0])
+    assert line.ends == pytest.approx((20e3, 7191.4, -5537.9, 52035.1), abs=0.1)
+    assert line.head_pull == pytest.approx(0.7 * 45764.4, abs=0.1)
+    assert value(DRIVEN, "static_resistance") == pytest.approx(45764.4, abs=0.1)
+    assert value(DRIVEN, "power_drive") == pytest.approx(45764.4 * 0.5, abs=0.1)
+    assert value(DRIVEN, "tension_static") == pytest.approx(52035.1, abs=0.1)
+
+
+def test_a_driven_tail_moves_the_mean_of_a_screw() -> None:
+    """The jump of the tension at the tail, 1000 - 13729.3 N, counts for the half of the loop behind it."""
+    spec = chain_of(changed(DRIVEN, layout__takeup={"type": "screw", "tension": "30 kN"}))
+    a, b, c, d = chain_line(spec, spec.all_scenes[0]).ends
+    assert (a + b + c + d) / 4 == pytest.approx(30e3, rel=1e-12)
+    assert (b - a, c - b, d - c) == pytest.approx((-12808.6, -12729.3, 57573.0), abs=0.1)
+    assert a == pytest.approx(30e3 - (-12808.6 * 3 - 12729.3 * 2 + 57573.0) / 4, abs=0.2)
+
+
 def test_a_stream_of_material_lies_on_the_chain_by_its_speed() -> None:
     assert value(changed(CH_05, layout__load=None, layout__capacity="216 t/h"), "static_resistance") == pytest.approx(
         value(CH_05, "static_resistance"), rel=1e-12

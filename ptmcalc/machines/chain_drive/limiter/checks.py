@@ -105,7 +105,7 @@ def _margin_limit(spec: ChainDrive, scene: Run) -> Estimate:
 
 def _where_it_pulls(spec: ChainDrive, scene: Run) -> Iterable[AnyCheck]:
     """Where the file gives a limiter and the chain has a resistance."""
-    if spec.torque_limiter is not None and chain_line(spec, scene).static_resistance != 0:
+    if spec.torque_limiter is not None and chain_line(spec, scene).head_pull != 0:
         yield replace(MARGIN, each=None)
 
 
@@ -124,6 +124,6 @@ MARGIN: Check[ChainDrive, Run] = Check(
     each=_where_it_pulls,
     what="The setting of the limiter is at least 1.25 times the torque of steady running, or the ratio of the file.",
     why="Wear, cold grease and small overloads trip a limiter without margin.",
-    formula="M/(W z p/(2 pi)) >= limit",
+    formula="M/(W_h z p/(2 pi)) >= limit",
     source="Tsubakimoto, technical data of mechanical protectors: service factors 1.25 and 1.5",
 )

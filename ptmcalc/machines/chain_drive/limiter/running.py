@@ -9,7 +9,8 @@ from ptmcalc.laws import inertia
 from ptmcalc.machines.chain_drive.limiter.torque import arms, larger, of_pull
 from ptmcalc.machines.chain_drive.limiter.trips import fitted, limiter_of
 from ptmcalc.machines.chain_drive.model import chain_line, drive_mass, ends_at_tail, mean_arm
-from ptmcalc.machines.chain_drive.polygon.excitation import FAR, HARMONICS, POLYGON, WEAK, answer
+from ptmcalc.machines.chain_drive.polygon.answers import answer
+from ptmcalc.machines.chain_drive.polygon.excitation import FAR, HARMONICS, POLYGON, WEAK
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.starting.motion import sprocket_mass
 from ptmcalc.machines.chain_drive.strength import AT_REST, Answer, safety, through
@@ -22,10 +23,10 @@ excess was 2.15; a larger value widens the error bar."""
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
     """Largest torque that the limiter transmits in steady running.
 
-        M = R |S_on - S_off|,   r cos(pi/z) <= R <= r,   M >= |W| z p/(2 pi)
+        M = R |S_on - S_off|,   r cos(pi/z) <= R <= r,   M >= |W_h| z p/(2 pi)
 
-    The tensions include the polygon effect of both ends on a drive of finite mass, as in `distributed_strand`. The mean
-    torque is a lower bound of the largest one.
+    The tensions include the polygon effect of both ends on a drive of finite mass, as in `distributed_strand`. W_h is
+    what this sprocket pulls: W, less the part of a driven tail. The mean torque is a lower bound of the largest one.
 
     **Range** a sprocket that turns evenly: the inertia torque of an equalising drive is not contained.
     **Error** bounded: harmonics, arms, and the part of the sprocket in the mass of the drive.
@@ -35,8 +36,8 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
     on = frozenset(name for name in (POLYGON, FAR, WEAK) if spec.effects.get(name) != "off")
     found = answer(spec, scene, on, HARMONICS[level]) if POLYGON in on else AT_REST
     most, least = _swings(spec, found)
-    still, mean = line.static_resistance, mean_arm(spec) * abs(line.static_resistance)
-    leaving = Interval(0.0, line.run_off + (0.0 if ends_at_tail(spec) else found.far_largest.high))
+    still, mean = line.head_pull, mean_arm(spec) * abs(line.head_pull)
+    leaving = Interval(0.0, line.run_off + _at_run_off(spec, found).high)
     torque = larger(
         of_pull(spec, _of(still, most), leaving),
         of_pull(spec, _of(-still, Estimate(-least.value, -least.high, -least.low, least.numerical)), leaving),
@@ -58,7 +59,8 @@ def _swings(spec: ChainDrive, found: Answer) -> tuple[Estimate, Estimate]:
     the sprocket in the mass of the drive less at least.
     """
     own = sprocket_mass(spec) / drive_mass(spec, inertia.ENERGY)
-    off_least, off_most = (0.0, 0.0) if ends_at_tail(spec) else (found.far_smallest.low, found.far_largest.high)
+    off = _at_run_off(spec, found)
+    off_least, off_most = off.low, off.high
     largest, smallest = found.largest, found.smallest
     most = Estimate(
         largest.value, (1 - own) * max(largest.low - off_most, 0.0), largest.high - off_least, largest.numerical
@@ -67,6 +69,13 @@ def _swings(spec: ChainDrive, found: Answer) -> tuple[Estimate, Estimate]:
         smallest.value, smallest.low - off_most, (1 - own) * min(smallest.high - off_least, 0.0), smallest.numerical
     )
     return _containing(most), _containing(least)
+
+
+def _at_run_off(spec: ChainDrive, found: Answer) -> Interval:
+    """Dynamic tension of the leaving strand [N]."""
+    if ends_at_tail(spec):
+        return Interval(found.off_smallest.low, found.off_largest.high)
+    return Interval(found.far_smallest.low, found.far_largest.high)
 
 
 def _containing(one: Estimate) -> Estimate:
@@ -78,7 +87,7 @@ def jam(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
 
         S = S_off + M_max/R,   r cos(pi/z) <= R <= r,   M_max the highest trip torque
         dS <= V (2.5 Z + (Z^2 + (EA/L) m_s)^(1/2)),   Z = (EA m_K)^(1/2)
-        limiter_reserve = M/(|W| z p/(2 pi)),   M the setting
+        limiter_reserve = M/(|W_h| z p/(2 pi)),   M the setting
 
     The value is the tension of a slow jam at the mean arm. The upper end of the error bar adds dS: the momentum of the
     chain and of the sprocket, m_s, that a rigid obstacle stops at the far end of the working strand, and their waves.
@@ -97,8 +106,8 @@ def jam(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
     added = _of_momentum(spec, scene)
     tension = Estimate(still, min(low, still), high + added, model=high + added - still)
     found = {"tension_jam": tension, "safety_jam": through(tension, lambda one: safety(spec, one))}
-    if line.static_resistance != 0:
-        running = lever.mean * abs(line.static_resistance)
+    if line.head_pull != 0:
+        running = lever.mean * abs(line.head_pull)
         found["limiter_reserve"] = Estimate.exact(limiter.torque / running)
     return Result({name: Found(one) for name, one in found.items()}, work=1)
 

@@ -20,7 +20,7 @@ from ptmcalc.machines.chain_drive.limiter.torque import (
     of_pull,
 )
 from ptmcalc.machines.chain_drive.limiter.trips import fitted, tripped
-from ptmcalc.machines.chain_drive.model import mean_arm
+from ptmcalc.machines.chain_drive.model import has_driven_tail, mean_arm
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.speed_change.effects import weight_bound
 from ptmcalc.machines.chain_drive.speed_change.motor_teeth import MOTOR_TEETH, curve_teeth_simulated
@@ -46,11 +46,12 @@ more refinements do not narrow."""
 def start_torque(spec: ChainDrive, scene: Start, level: int) -> tuple[Estimate, float | None]:
     """Largest torque through the limiter in a start as if it held [N*m], and when it acts [s]."""
     case, arm = start_case(spec, scene), mean_arm(spec)
-    leaving = Interval(case.line.run_off, case.line.run_off)
+    leaving, own = Interval(case.line.run_off, case.line.run_off), sprocket_mass(spec)
+    rigid = case.line.static_resistance + case.acceleration * (case.line.moving_mass + own)
+    if has_driven_tail(spec):
+        return Estimate.unknown(arm * rigid), None
     if not case.moves and not case.follows_curve:
         return of_pull(spec, Estimate.exact(case.available), leaving), None
-    own = sprocket_mass(spec)
-    rigid = case.line.static_resistance + case.acceleration * (case.line.moving_mass + own)
     if spec.effects.get("chain_elasticity") == "off" and not case.follows_curve:
         return of_pull(spec, Estimate.exact(rigid), leaving), None
     if case.follows_curve and stands_still(spec, case):
@@ -227,15 +228,15 @@ def run_teeth(spec: ChainDrive, scene: Start, carried: frozenset[str], level: in
 
 
 def toothed(spec: ChainDrive, scene: Start) -> Criterion:
-    """Whether the machine has a torque limiter and a start whose teeth are simulated: 0 where both hold, else 1.
+    """Whether the machine has a torque limiter, no driven tail, and a start whose teeth are simulated: 0, else 1.
 
     **Range** any machine.
     **Error** exact.
     **Source** the file; range of `chain_start_teeth`.
     """
     lacks = spec.torque_limiter is None or spec.effects.get("tooth_passing") == "off"
-    lacks = lacks or not START_TEETH.usable_for(spec, scene)
-    meaning = "0 where the file gives a torque limiter and chain_start_teeth applies, else 1"
+    lacks = lacks or has_driven_tail(spec) or not START_TEETH.usable_for(spec, scene)
+    meaning = "0 with a torque limiter, no driven tail, and where chain_start_teeth applies, else 1"
     return Criterion("limiter", float(lacks), 1.0, meaning, "the file")
 
 

@@ -8,7 +8,7 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.chain_drive.limiter.torque import Through, extremes, larger, modes_through, negative, of_pull
 from ptmcalc.machines.chain_drive.limiter.trips import fitted, tripped
-from ptmcalc.machines.chain_drive.model import mean_arm
+from ptmcalc.machines.chain_drive.model import has_driven_tail, mean_arm
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Coast, EmergencyStop, Stop, Stopping
 from ptmcalc.machines.chain_drive.starting.waves import felt
 from ptmcalc.machines.chain_drive.stopping import motion
@@ -27,6 +27,8 @@ STOPS: frozenset[type[Scene]] = frozenset({Stop, EmergencyStop, Coast})
 def stop_torque(spec: ChainDrive, scene: Stopping, level: int) -> Estimate:
     """Largest torque through the limiter in a stop as if it held, in either direction [N*m]."""
     case = stop_case(spec, scene)
+    if has_driven_tail(spec):
+        return Estimate.unknown(mean_arm(spec) * abs(_rigid(case)))
     if spec.effects.get("chain_elasticity") == "off":
         leaving = Interval(case.line.run_off, case.line.run_off)
         return of_pull(spec, Estimate.exact(abs(_rigid(case))), leaving)

@@ -5,10 +5,12 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.chain_drive.model import chain_line, ends_at_tail
-from ptmcalc.machines.chain_drive.polygon.excitation import FAR, POLYGON, WEAK, answer_bound
+from ptmcalc.machines.chain_drive.layout import TwoShafts
+from ptmcalc.machines.chain_drive.model import chain_line, has_driven_tail
+from ptmcalc.machines.chain_drive.polygon.answers import answer_bound
+from ptmcalc.machines.chain_drive.polygon.excitation import FAR, POLYGON, WEAK
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import OF_TENSION, QUIET, Answer, Tail, loads_of_tension
+from ptmcalc.machines.chain_drive.strength import OF_TENSION, QUIET, STILL, Answer, Tail, loads_of_tension
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
@@ -24,8 +26,9 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
     bound = answer_bound(spec, scene, carried, near=True)
     most = Estimate(bound, 0.0, bound, bound) if math.isfinite(bound) else Estimate.unknown(bound)
     least = Estimate(-bound, -bound, 0.0, bound) if math.isfinite(bound) else Estimate.unknown(-bound)
-    tail = QUIET if ends_at_tail(spec) else Tail(most, least, most, least)
-    loads = loads_of_tension(spec, chain_line(spec, scene), Answer(most, least, most, least, tail, bound, None))
+    tail = QUIET if isinstance(spec.layout, TwoShafts) else Tail(most, least, most, least)
+    off = (most, least) if has_driven_tail(spec) else (STILL, STILL)
+    loads = loads_of_tension(spec, chain_line(spec, scene), Answer(most, least, most, least, tail, bound, None, *off))
     loads["tension_polygon_bound"] = most  # its rest behind the last harmonic is bounded, too
     return Result({name: Found(one) for name, one in loads.items()}, work=1024)
 

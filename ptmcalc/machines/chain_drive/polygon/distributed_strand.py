@@ -11,12 +11,12 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import polygon
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import chain_line, vibrating
+from ptmcalc.machines.chain_drive.polygon.answers import answer
 from ptmcalc.machines.chain_drive.polygon.excitation import (
     FAR,
     HARMONICS,
     POLYGON,
     WEAK,
-    answer,
     mass_of_drive,
     swept,
     undamped,
@@ -40,7 +40,8 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
         S(t) = sum Im(D(w_n) (-b_n/w_n^2) e^(i w_n t)),   w_n = 2 pi n V/p
 
     D is the dynamic stiffness of the strands with the ends of the machine: constant tension with or without a moving
-    mass, a fixed end, or the other strand of the same sprocket. The far end may have a polygon effect of its own. The
+    mass, a fixed end, or the other strand of the same sprocket. The far end may have a polygon effect of its own. In
+    front of a driven tail the return strand vibrates on its own, its sprockets at constant speed. The
     maximum tension over a range of speeds is the curve of the load `tension_dynamic_polygon`.
 
     **Range** linear taut strands; tensions at both ends of the vibrating strands and at the tail.

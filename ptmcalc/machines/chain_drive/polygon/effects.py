@@ -7,12 +7,12 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import inertia
 from ptmcalc.machines.chain_drive.model import breaking_load, chain_line, drive_mass
+from ptmcalc.machines.chain_drive.polygon.answers import answer_bound
 from ptmcalc.machines.chain_drive.polygon.chain_modes import loads_of
 from ptmcalc.machines.chain_drive.polygon.excitation import (
     FAR,
     POLYGON,
     WEAK,
-    answer_bound,
     change_by_drive,
     static_scale,
 )

@@ -25,9 +25,8 @@ from ptmcalc.machines.chain_drive.model import (
     vibrating,
 )
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import QUIET, Answer, Tail
 from ptmcalc.numerics.harmonic import parts
-from ptmcalc.numerics.harmonic.inside import Extremes, joint_forces, joint_response
+from ptmcalc.numerics.harmonic.inside import joint_forces
 from ptmcalc.numerics.harmonic.parts import Chain, Excitation
 from ptmcalc.numerics.harmonic.response import Peaks, polygon_response
 from ptmcalc.numerics.harmonic.waves import RESONANT, Waves, ratios_of
@@ -115,14 +114,20 @@ class Swept:
 def swept(
     spec: ChainDrive, chain: Chain, speeds: FloatArray, carried: frozenset[str], count: int, at_far_end: bool = False
 ) -> Swept:
-    """Peaks of the force at an end of the chain.
+    """Peaks of the force at an end of the chain."""
+    near, far = excitations(spec, chain, speeds, carried, count)
+    return peaks_of(chain, tooth_frequency(spec, speeds), near, far, far_place(spec) is not None, at_far_end)
+
+
+def peaks_of(
+    chain: Chain, w: FloatArray, near: Excitation, far: Excitation | None, placed: bool, at_far_end: bool = False
+) -> Swept:
+    """The same for given motions of both ends, with or without a known place of the far joints.
 
     Where nobody knows the place of the far sprocket's joints the worst of all is taken: the peaks of both parts fall
     together at some place, so their sum is that of the worst one exactly.
     """
-    near, far = excitations(spec, chain, speeds, carried, count)
-    w = tooth_frequency(spec, speeds)
-    if far is None or far_place(spec) is not None:
+    if far is None or placed:
         return _swept(polygon_response(chain, w, near, far, at_far_end), placed=True)
     one = _swept(polygon_response(chain, w, near, still(far), at_far_end), placed=False)
     other = _swept(polygon_response(chain, w, still(near), far, at_far_end), placed=False)
@@ -155,43 +160,12 @@ def _estimate(values: FloatArray, lows: FloatArray, highs: FloatArray) -> Estima
     return Estimate(value, low, high, numerical=max(value - low, high - value))
 
 
-def answer(spec: ChainDrive, scene: Run, carried: frozenset[str], count: int) -> Answer:
-    """Dynamic tensions of steady running at the speed of the file; without bound at a resonance without damping."""
-    if unbounded(spec, scene, carried):
-        most, least = Estimate.exact(math.inf), Estimate.exact(-math.inf)
-        return Answer(most, least, most, least, Tail(most, least, most, least), math.inf, None)
-    chain = vibrating(spec, scene, mass_of_drive(spec, carried))
-    speeds = np.array([spec.speed])
-    on = swept(spec, chain, speeds, carried, count)
-    far = None
-    if excites_far(spec, chain):
-        far = swept(spec, chain, speeds, carried, count, at_far_end=True)
-    inside = _at_joint(spec, chain, speeds, carried, count)
-    bounds = [one.bound for one in (on, far, *inside) if one is not None]
-    return Answer(
-        _estimate(on.largest, on.largest_low, on.largest_high),
-        _estimate(on.smallest, on.smallest_low, on.smallest_high),
-        _estimate(far.largest, far.largest_low, far.largest_high) if far else Estimate.exact(0.0),
-        _estimate(far.smallest, far.smallest_low, far.smallest_high) if far else Estimate.exact(0.0),
-        Tail(*(one for side in inside for one in _of_joint(side))) if inside else QUIET,
-        float(max(bound[0] for bound in bounds)),
-        float(on.place[0]) if on.place is not None else None,
+def ended(peaks: Swept) -> tuple[Estimate, Estimate]:
+    """Largest and smallest force of the only speed [N]."""
+    return (
+        _estimate(peaks.largest, peaks.largest_low, peaks.largest_high),
+        _estimate(peaks.smallest, peaks.smallest_low, peaks.smallest_high),
     )
-
-
-def _at_joint(
-    spec: ChainDrive, chain: Chain, speeds: FloatArray, carried: frozenset[str], count: int
-) -> tuple[Extremes, ...]:
-    """Forces of both strands at the tail, where both vibrate."""
-    if len(chain.lines) == 1:
-        return ()
-    near, far = excitations(spec, chain, speeds, carried, count)
-    return joint_response(chain, tooth_frequency(spec, speeds), near, far)
-
-
-def _of_joint(side: Extremes) -> tuple[Estimate, Estimate]:
-    error = float(side.error[0])
-    return tuple(Estimate.within(float(one[0]), error) for one in (side.largest, side.smallest))  # type: ignore[return-value]
 
 
 def undamped(spec: ChainDrive, scene: Run) -> bool:
@@ -208,23 +182,6 @@ def unbounded(spec: ChainDrive, scene: Run, carried: frozenset[str]) -> bool:
     turns = modes / float(tooth_frequency(spec, spec.speed))
     harmonic = np.maximum(np.round(turns), 1.0)
     return bool(np.any(np.abs(turns / harmonic - 1) < _EXACT))
-
-
-def answer_bound(spec: ChainDrive, scene: Run, carried: frozenset[str], near: bool) -> float:
-    """Sum of the absolute terms of the dynamic tension at the larger end, whatever the phases: of all that moves the
-    chain, or of the far end alone [N]."""
-    chain = vibrating(spec, scene, mass_of_drive(spec, carried))
-    own, far = excitations(spec, chain, np.array([spec.speed]), carried, HARMONICS[0])
-    if not near:
-        if far is None:
-            return 0.0
-        own = still(own)
-    w = tooth_frequency(spec, [spec.speed])
-    ends = (False, True) if excites_far(spec, chain) else (False,)
-    bounds = [polygon_response(chain, w, own, far, at_far_end=end).bound for end in ends]
-    if len(chain.lines) == 2:
-        bounds += [side.bound for side in joint_response(chain, w, own, far)]
-    return max(float(one[0]) for one in bounds)
 
 
 def change_by_drive(spec: ChainDrive, scene: Run) -> float:

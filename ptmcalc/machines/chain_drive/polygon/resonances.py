@@ -6,6 +6,7 @@ import numpy as np
 
 from ptmcalc.laws import chain_resonance
 from ptmcalc.machines.chain_drive.model import (
+    MODES,
     FloatArray,
     chain_line,
     damping,
@@ -14,7 +15,9 @@ from ptmcalc.machines.chain_drive.model import (
     vibrating,
 )
 from ptmcalc.machines.chain_drive.polygon.excitation import mass_of_drive, residual
+from ptmcalc.machines.chain_drive.polygon.return_strand import return_chain, return_frequencies
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.numerics.harmonic.parts import Chain
 from ptmcalc.numerics.harmonic.waves import dynamic_stiffness
 
 _MOST_ORDERS = 64
@@ -55,24 +58,38 @@ def resonances(spec: ChainDrive, scene: Run, carried: frozenset[str]) -> Resonan
         V_nk = p w_k/(2 pi n),   W_nk = (2/(pi n)) |D(w_k)|/(m w_k^2)
 
     D is the dynamic stiffness of the damped chain at the sprocket, whatever its ends; without damping it is infinite at
-    w_k, and so are the weights.
+    w_k, and so are the weights. The modes of the return strand in front of a driven tail are among the others; D is
+    that at the tail.
     """
     drive = mass_of_drive(spec, carried)
     frequencies = natural_frequencies(spec, scene, drive)
-    kind, mass = damping(spec, scene), chain_line(spec, scene).moving_mass
-    stiff = np.abs(dynamic_stiffness(vibrating(spec, scene, drive), frequencies))
-    stiff = np.where(damping_ratios(kind, frequencies) > 0, stiff, np.inf)
+    parts = [_weights(spec, scene, vibrating(spec, scene, drive), frequencies, residual(spec))]
+    back = return_chain(spec, scene)
+    if back is not None:
+        own = return_frequencies(spec, scene, MODES)
+        parts.append(_weights(spec, scene, back, own, 1.0))
+        frequencies = np.concatenate([frequencies, own])
+    order = np.argsort(frequencies, kind="stable")[:MODES]
+    frequencies = frequencies[order]
     orders = np.arange(1.0, _MOST_ORDERS + 1)
-    share = 2 / np.pi * residual(spec)
-    weights = share * (stiff / (mass * frequencies**2)) / orders[:, None] if share > 0 else np.zeros((len(orders), 1))
+    weights = np.concatenate(parts)[order] / orders[:, None]
     limit = spec.checks.resonance
-    ratios = damping_ratios(kind, frequencies)
+    ratios = damping_ratios(damping(spec, scene), frequencies)
     speeds = chain_resonance.resonance_speeds(frequencies, orders, spec.chain.pitch)
     half = chain_resonance.exclusion_half_widths(ratios, limit.band)
     weights, half = (np.broadcast_to(one, speeds.shape) for one in (weights, half))
     matter = weights >= limit.weight
     bands = chain_resonance.exclusion_bands(speeds[matter], half[matter])
     return Resonances(frequencies, speeds, np.asarray(weights), np.asarray(half), bands, limit.weight)
+
+
+def _weights(spec: ChainDrive, scene: Run, chain: Chain, frequencies: FloatArray, share: float) -> FloatArray:
+    """Weights of the modes of a chain for the first harmonic of the teeth, of which the drive leaves a share [1]."""
+    if share == 0:
+        return np.zeros_like(frequencies)
+    stiff = np.abs(dynamic_stiffness(chain, frequencies))
+    stiff = np.where(damping_ratios(damping(spec, scene), frequencies) > 0, stiff, np.inf)
+    return np.asarray(2 / np.pi * share * (stiff / (chain_line(spec, scene).moving_mass * frequencies**2)))
 
 
 def safe_speeds(spec: ChainDrive, scene: Run, carried: frozenset[str]) -> tuple[float, float]:

@@ -13,7 +13,9 @@ from ptmcalc.machines.chain_drive.strength import AT_REST, OF_TENSION, loads_of_
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
     """Loads of a chain in steady running.
 
-        S_tail = S_off + W_return - q_0 g H,   S_on = S_tail + F + W_working + (q_0 + q_G) g H
+        S_tail = S_off + W_return - q_0 g H,   S_on = S_tail + F - s W + W_working + (q_0 + q_G) g H
+
+    W is what all drives pull, W_return + F + W_working + q_G g H.
 
     **Range** straight strands; between two shafts the slack strand hangs in a flat arc.
     **Error** no error bar of its own; the bound of the polygon effect covers the added tension.

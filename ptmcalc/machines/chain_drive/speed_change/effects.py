@@ -7,9 +7,10 @@ import numpy as np
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
-from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.model import chain_line
+from ptmcalc.machines.chain_drive import loops
+from ptmcalc.machines.chain_drive.loops import HeldStrands
+from ptmcalc.machines.chain_drive.model import chain_line, has_driven_tail, shares_torque
 from ptmcalc.machines.chain_drive.spec import (
     ChainDrive,
     ChainScene,
@@ -23,7 +24,7 @@ from ptmcalc.machines.chain_drive.speed_change.teeth import curve_teeth, range_p
 from ptmcalc.machines.chain_drive.speed_change.tooth_passes import range_loads
 from ptmcalc.machines.chain_drive.starting import bounds as start_bounds
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS
-from ptmcalc.machines.chain_drive.starting.motion import StartCase, light_return, start_case
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, start_case, swinging_loop
 from ptmcalc.machines.chain_drive.starting.motor_force import stands_still
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
@@ -67,19 +68,21 @@ def elastic_criterion(spec: ChainDrive, scene: ChainScene) -> Criterion:
     a b(s) is the bound for a torque step (`laws.loop_bounds.stray`), g the share that remains with the profile. S_low
     is the bound of the minimum tension in a stop.
 
-    **Range** any start and any stop; infinite if a section has no static tension, and for a start on a motor curve.
+    **Range** any start and any stop; infinite if a section has no static tension, for a start on a motor curve, and for
+    a torque that two drives share (driven tail).
     **Error** an upper bound of the ratio.
     **Source** derived in `laws.loop_bounds`; the threshold of 5 % is an engineering choice.
     """
     if isinstance(scene, Start):
         case = start_case(spec, scene)
         value = start_bounds.stray_ratio(case)
-        if case.follows_curve:
+        if case.follows_curve or _apart(spec, case):
             value = math.inf if _moves(spec, case) else 0.0
     else:
         stop = stop_case(spec, scene)
         found, least = extremes(spec, stop), min(stop.line.ends)
-        value = (found.smallest - found.lowest) / least if least > 0 else math.inf
+        known = least > 0 and not shares_torque(spec)
+        value = (found.smallest - found.lowest) / least if known else math.inf
     meaning = "maximum tension added by chain waves / static tension"
     return Criterion("E", value, ELASTIC_THRESHOLD, meaning, "laws.loop_bounds")
 
@@ -93,7 +96,8 @@ def elastic_bound(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
 
     **Range** a taut chain that slides forward, any tail mass and jump of impedance, any internal damping; a take-up
     without mass. If the interval reaches below 0, the chain may go slack and no bound exists. No bound exists for a
-    start on a motor curve or with a driven tail.
+    start on a motor curve. A driven tail has the speed of the driving sprocket (`laws.held_strands`): by the profile
+    of a start, or in any start and stop where it is synchronised. Without that, torques and stops have no bound.
     **Error** a bound; it is attained at the entering strand with a constant tension of the leaving strand and without
     damping.
     **Source** derived in `laws.loop_bounds` (completeness of the modes, Cauchy-Schwarz, Dunkerley); a damped mode never
@@ -104,7 +108,7 @@ def elastic_bound(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
     case = start_case(spec, scene)
     if not _moves(spec, case):
         return {}
-    if case.follows_curve or _has_driven_tail(spec):
+    if case.follows_curve or _apart(spec, case):
         return _anything(loads)
     intervals = start_bounds.enclosed(case)
     found = start_bounds.offsets(spec, case, intervals, loads)
@@ -116,12 +120,17 @@ def _moves(spec: ChainDrive, case: StartCase) -> bool:
     return not stands_still(spec, case) if case.follows_curve else case.moves
 
 
+def _apart(spec: ChainDrive, case: StartCase) -> bool:
+    """Whether a start turns the sprockets of a driven tail by torques, each at a speed of its own."""
+    return shares_torque(spec) and not case.imposed_speed
+
+
 def _of_stop(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
     """`elastic_bound` of a stop."""
     case = stop_case(spec, scene)
-    given, found = extremes(spec, case), dict[str, Interval]()
-    if _has_driven_tail(spec):
+    if shares_torque(spec):
         return {name: ANYTHING for name in loads if name in OF_STOP}
+    given, found = extremes(spec, case), dict[str, Interval]()
     if "tension_min" in loads:
         top, known = min(case.line.ends), loads["tension_min"]
         low = given.lowest - known.low if given.lowest >= 0 else -math.inf  # slack, and caught again
@@ -138,21 +147,16 @@ def _of_stop(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
 
 def _overload(spec: ChainDrive, case: StopCase, load: Estimate) -> Interval:
     """What waves make of the tension that braking adds at the drive."""
-    if not case.line.fixed_length:
+    if not case.line.fixed_length and not isinstance(case.masses(1.0), HeldStrands):
         return Interval(0.0, load.high)
     a = load.value / case.line.moving_mass
     least, most = 0.0, 0.0
     for losses in (case.efficiency, 1 / case.efficiency):
-        loop = light_return(spec, case.masses(losses))
+        loop = swinging_loop(spec, case.masses(losses))
         for end in ((CARRY, 1.0), (RETURN, 0.0)):
-            r = abs(float(loop_bounds.quasi_static(loop, *end)))
-            least, most = max(least, r), max(most, r + float(loop_bounds.stray(loop, *end)))
+            r = abs(float(loops.quasi_static(loop, *end)))
+            least, most = max(least, r), max(most, r + float(loops.stray(loop, *end)))
     return Interval(min(a * least - load.low, 0.0), max(a * most - load.high, 0.0))
-
-
-def _has_driven_tail(spec: ChainDrive) -> bool:
-    tail = getattr(spec.layout, "tail", None)
-    return tail is not None and bool(tail.driven == "on")
 
 
 def _unless_taut(found: Offsets, loads: Loads) -> Offsets:
@@ -175,7 +179,7 @@ def modes_criterion(spec: ChainDrive, scene: Start) -> Criterion:
     """
     case = start_case(spec, scene)
     rest, _ = _behind_the_first(case)
-    whole = abs(float(loop_bounds.quasi_static(case.masses, CARRY, 1.0)))
+    whole = abs(float(loops.quasi_static(case.masses, CARRY, 1.0)))
     value = rest / whole if whole > 0 else math.inf
     meaning = "share of higher modes in the starting tension"
     return Criterion("n", value, MODES_THRESHOLD, meaning, "laws.chain_resonance")
@@ -184,8 +188,8 @@ def modes_criterion(spec: ChainDrive, scene: Start) -> Criterion:
 def _behind_the_first(case: StartCase) -> tuple[float, float]:
     """Bound of the parts of all modes but the first at the run-on [kg], and the second frequency [rad/s]."""
     w = natural_frequencies(case, _COUNTED)
-    gains = chain_resonance.modal_tensions(case.masses, w, CARRY, np.ones(1))[:, 0]
-    rest = float(chain_resonance.modal_rest(case.masses, w, CARRY, np.ones(1))[0])
+    gains = loops.modal_tensions(case.masses, w, CARRY, np.ones(1))[:, 0]
+    rest = float(loops.modal_rest(case.masses, w, CARRY, np.ones(1))[0])
     return float(np.abs(gains[1:]).sum()) + rest, float(w[1])
 
 
@@ -208,14 +212,14 @@ def modes_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
     **Source** sums over modes; derived.
     """
     case = start_case(spec, scene)
-    if not case.moves or "tension_dynamic_start" not in loads or scene.chain == "relaxed":
+    if not case.moves or "tension_dynamic_start" not in loads or scene.chain == "relaxed" or _apart(spec, case):
         return _anything(loads)
     rest, second = _behind_the_first(case)
     first = float(natural_frequencies(case, 1)[0])
     strays = [one.stray + other.stray for one, other in zip(case.phases(first), case.phases(second), strict=True)]
     less = more = case.acceleration * rest * max(strays)
     if not case.line.fixed_length:
-        whole = float(loop_bounds.quasi_static(case.masses, CARRY, 1.0)) * case.acceleration
+        whole = float(loops.quasi_static(case.masses, CARRY, 1.0)) * case.acceleration
         reached = loads["tension_dynamic_start"].value / whole if whole > 0 else 0.0
         most = max(phase.high + phase.stray for phase in case.phases(second))
         more = min(more, case.acceleration * rest * max(most - reached, 0.0))
@@ -281,7 +285,10 @@ def _weight_numbers(spec: ChainDrive, scene: Start, case: StartCase) -> tuple[fl
     if mass == 0 or not _moves(spec, case):
         return 0.0, 0.0
     impedance = math.sqrt(case.line.back.line_mass * case.line.back.stiffness)
-    kappa = mass / 4 * float(natural_frequencies(case, 1)[0]) / impedance
+    lowest = float(natural_frequencies(case, 1)[0])
+    if isinstance(case.masses, HeldStrands):  # of the return strand, which alone moves the weight
+        lowest = math.pi / 2 / case.masses.travel_time(RETURN)
+    kappa = mass / 4 * lowest / impedance
     alone = _acceleration(spec, scene, case)
     alone *= 1 if case.imposed_speed else case.whole_mass / case.masses.drive_mass
     return kappa, alone / spec.gravity
@@ -346,7 +353,8 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
         P/S_static,   P of `passing.Passing.teeth_bound`;   infinite if the entering strand has no tension
 
-    **Range** any start and any range of speeds; infinite with a driven tail.
+    **Range** any start and any range of speeds; infinite with a driven tail in a range of speeds, on a motor curve and
+    under torques of sprockets that are not synchronised.
     **Error** an upper bound.
     **Source** derived in `chain_start.passing_bound`; the threshold of 5 % is an engineering choice.
     """
@@ -357,12 +365,12 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
 
 def _teeth(spec: ChainDrive, scene: Start | SpeedRange) -> float:
-    """The bound of either scene [N]; unbounded for a driven tail."""
-    if _has_driven_tail(spec):
-        return math.inf
+    """The bound of either scene [N]; unbounded for a driven tail in a range of speeds and under shared torques."""
     if isinstance(scene, SpeedRange):
-        return range_passing(spec, scene).teeth_bound(spec)
+        return math.inf if has_driven_tail(spec) else range_passing(spec, scene).teeth_bound(spec)
     case = start_case(spec, scene)
+    if (has_driven_tail(spec) and case.follows_curve) or _apart(spec, case):
+        return math.inf
     if not _moves(spec, case):
         return 0.0
     return curve_teeth(spec, scene) if case.follows_curve else start_passing(spec, scene).teeth_bound(spec)
@@ -376,7 +384,8 @@ def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Of
     On a motor curve P is the sum of the bounds for a drive whose torque does not depend on its speed, and for a drive
     whose speed does not change (`teeth.curve_teeth`).
 
-    **Range** a taut chain and a sprocket speed that only rises or only falls; unbounded with a driven tail.
+    **Range** a taut chain and a sprocket speed that only rises or only falls; with a driven tail unbounded in a range
+    of speeds, on a motor curve and under torques of sprockets that are not synchronised.
     **Error** a bound; see `chain_start.passing_bound`.
     **Source** variation of the input of every mode, derived.
     """

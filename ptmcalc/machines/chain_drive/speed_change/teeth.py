@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ptmcalc.laws import chain_resonance, chain_start, loop_bounds, polygon, sprocket, start_profile
+from ptmcalc.laws import chain_start, polygon, sprocket, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive import loops
+from ptmcalc.machines.chain_drive.layout import TwoShafts
+from ptmcalc.machines.chain_drive.loops import HeldStrands
 from ptmcalc.machines.chain_drive.model import (
     FloatArray,
     damping,
@@ -54,7 +56,7 @@ class Passing:
 
     def shapes(self, strand: int, x: FloatArray) -> FloatArray:
         """Tensions of the modes at sections, shape (k, n) [kg]."""
-        return chain_resonance.modal_shapes(self.masses, self.frequencies, strand, x)
+        return loops.modal_shapes(self.masses, self.frequencies, strand, x)
 
     def edges(self, spec: ChainDrive, *leads: float) -> FloatArray:
         """Times between which all is smooth: engagements at the ends with these leads in pitches, and kinks."""
@@ -76,6 +78,22 @@ class Passing:
         turned = polygon.ramped_acceleration(angle, turning, 0.0, pitch, teeth)
         return np.asarray(turned + mean * (sprocket.pitch_radius(pitch, teeth) / arm * np.cos(angle) - 1))
 
+    def stretch(self, spec: ChainDrive, times: FloatArray, places: FloatArray, teeth: int) -> FloatArray:
+        """Way by which an end of the chain runs ahead of the mean motion of its sprocket [m]; of a strand held at both
+        ends with what its damping adds, the way in the damping time of the first mode."""
+        pitch = spec.chain.pitch
+        ahead = polygon.polygon_displacement(places, pitch, teeth)
+        if not isinstance(self.masses, HeldStrands):
+            return ahead
+        radius, arm = sprocket.pitch_radius(pitch, teeth), pitch * teeth / (2 * math.pi)
+        faster = self.speed(times) * (radius / arm * np.cos(2 * np.pi / teeth * places) - 1)
+        return np.asarray(ahead + self.damping_time * faster)
+
+    @property
+    def damping_time(self) -> float:
+        """2 zeta/w of the first mode: that of a Kelvin-Voigt chain [s]."""
+        return 2 * float(self.damping_ratios[0] / self.frequencies[0])
+
     def follow(self, spec: ChainDrive, teeth: int) -> FloatArray:
         """Most that each mode, and any above them, follows the teeth of a sprocket [m/s^2]."""
         pitch = spec.chain.pitch
@@ -92,7 +110,7 @@ class Passing:
         follow = self.follow(spec, tail_teeth(spec))
         on, far = (self.shapes(CARRY, x)[:, 0] for x in (_END, np.zeros(1)))
         known = float(np.abs(on * far) @ follow[:-1]) / self.masses.belt_mass
-        greens = (float(loop_bounds.tension_green(self.masses, CARRY, x)) for x in (1.0, 0.0))
+        greens = (float(loops.tension_green(self.masses, CARRY, x)) for x in (1.0, 0.0))
         rests = [
             max(green - float(one @ one) / self.masses.belt_mass, 0.0)
             for green, one in zip(greens, (on, far), strict=True)
@@ -105,16 +123,40 @@ class Passing:
             sum B_on,k^2 x_k + R x_max      constant tension at the run-off
             (G_on + (G_on G_off)^(1/2)) x_max + 2 (EA/L) u_max      a loop of fixed length, both its ends on the teeth
 
+            G^(1/2) (G_h^(1/2) x_h + G_t^(1/2) x_t) + EA/L (e u_h + u_t)      each strand, held at both sprockets
+
         x_k are the bounds of `chain_start.passing_bound`, x_max the largest of them and of a mode beyond all others.
         """
+        if isinstance(self.masses, HeldStrands):
+            return self._held_bound(spec, self.masses)
         follow = residual(spec) * self.follow(spec, spec.sprocket.teeth)
-        on, off = (float(loop_bounds.tension_green(self.masses, *at)) for at in ((CARRY, 1.0), (RETURN, 0.0)))
+        on, off = (float(loops.tension_green(self.masses, *at)) for at in ((CARRY, 1.0), (RETURN, 0.0)))
         if self.masses.fixed_length:
             stretch = 2 * residual(spec) * self.ahead(spec) * self.stiffness
             return (on + math.sqrt(on * off)) * float(follow.max()) + stretch
         at_run_on = self.shapes(CARRY, _END)[:, 0] ** 2 / self.masses.belt_mass
         behind = max(on - float(at_run_on.sum()), 0.0) * float(follow[-2:].max())
         return float(at_run_on @ follow[:-1]) + behind + self.far_bound(spec)
+
+    def _held_bound(self, spec: ChainDrive, strands: HeldStrands) -> float:
+        """The same where the teeth of both sprockets move either end of each strand [N]: the larger of both strands."""
+        share, worst = residual(spec), 0.0
+        head = share * float(self.follow(spec, spec.sprocket.teeth).max())
+        tail = float(self.follow(spec, tail_teeth(spec)).max())
+        for strand in (RETURN, CARRY):
+            at = (0.0, 1.0) if strand == RETURN else (1.0, 0.0)
+            near, far = (math.sqrt(float(loops.tension_green(strands, strand, x))) for x in at)
+            stretch = share * self._most_stretch(spec, spec.sprocket.teeth)
+            stretch += self._most_stretch(spec, tail_teeth(spec))
+            moved = max(near, far) * (near * head + far * tail)
+            worst = max(worst, moved + strands.stiffness_of(strand) * stretch)
+        return worst
+
+    def _most_stretch(self, spec: ChainDrive, teeth: int) -> float:
+        """Most of `stretch` [m]."""
+        radius, arm = sprocket.pitch_radius(spec.chain.pitch, teeth), spec.chain.pitch * teeth / (2 * math.pi)
+        slower = max(radius / arm - 1, 1 - radius / arm * math.cos(math.pi / teeth))
+        return self.ahead(spec, teeth) + self.damping_time * self.fastest * slower
 
     def left_out(self, spec: ChainDrive, strand: int, x: FloatArray) -> FloatArray:
         """Most that modes above those taken add at sections, shape (n,) [N].
@@ -125,20 +167,28 @@ class Passing:
 
         def rest(strand: int, x: FloatArray) -> FloatArray:
             taken = np.sum(self.shapes(strand, x) ** 2, axis=0) / self.masses.belt_mass
-            return np.asarray(np.sqrt(np.maximum(loop_bounds.tension_green(self.masses, strand, x) - taken, 0.0)))
+            return np.asarray(np.sqrt(np.maximum(loops.tension_green(self.masses, strand, x) - taken, 0.0)))
 
+        if isinstance(self.masses, HeldStrands):
+            tail = float(self.follow(spec, tail_teeth(spec))[-2:].max())
+            near, far = (np.zeros(1), _END) if strand == RETURN else (_END, np.zeros(1))
+            ends = float(rest(strand, near)[0]) * follow + float(rest(strand, far)[0]) * tail
+            begun = loops.modal_rest(self.masses, self.frequencies, strand, x)
+            return np.asarray(rest(strand, x) * ends + 2 * self.sharpest * begun)
         ends = float(rest(CARRY, _END)[0]) * follow
         if self.masses.fixed_length:
             ends += float(rest(RETURN, np.zeros(1))[0]) * follow
         if isinstance(spec.layout, TwoShafts):
             ends += float(rest(CARRY, np.zeros(1))[0]) * float(self.follow(spec, tail_teeth(spec))[-2:].max())
-        begun = chain_resonance.modal_rest(self.masses, self.frequencies, strand, x)
+        begun = loops.modal_rest(self.masses, self.frequencies, strand, x)
         return np.asarray(rest(strand, x) * ends + 2 * self.sharpest * begun)
 
-    def ahead(self, spec: ChainDrive) -> float:
-        """Most that a polygon lets the chain run ahead of its mean motion [m]."""
+    def ahead(self, spec: ChainDrive, teeth: int | None = None) -> float:
+        """Most that a polygon, of the driving sprocket or of these teeth, lets the chain run ahead of its mean motion
+        [m]."""
         places = np.linspace(-0.5, 0.5, 201)
-        return float(np.abs(polygon.polygon_displacement(places, spec.chain.pitch, spec.sprocket.teeth)).max())
+        moved = polygon.polygon_displacement(places, spec.chain.pitch, teeth or spec.sprocket.teeth)
+        return float(np.abs(moved).max())
 
     @property
     def stiffness(self) -> float:
@@ -152,6 +202,9 @@ class Passing:
         """What excites each mode per mean acceleration, as `modal_shapes` at an end do per polygon's [kg]."""
         if not self.started:
             return np.zeros(len(self.frequencies))
+        if isinstance(self.masses, HeldStrands):
+            ends = (self.shapes(strand, _END) - self.shapes(strand, np.zeros(1)) for strand in (RETURN, CARRY))
+            return np.asarray(sum(ends))[:, 0]
         share = 1.0 if self.masses.imposed_speed else self.masses.total_mass / self.masses.drive_mass
         return share * (self.shapes(CARRY, _END) - self.shapes(RETURN, np.zeros(1)))[:, 0]
 
@@ -163,11 +216,6 @@ def swinging(damping_ratios: FloatArray) -> int:
     out, whose bound holds it.
     """
     return max(int(np.argmax(damping_ratios > 1)) if np.any(damping_ratios > 1) else len(damping_ratios), 1)
-
-
-def has_driven_tail(spec: ChainDrive) -> bool:
-    """Whether another drive turns the tail."""
-    return isinstance(spec.layout, ConveyorLayout) and spec.layout.tail.driven == "on"
 
 
 def range_passing(spec: ChainDrive, scene: SpeedRange, count: int = _FOR_BOUNDS) -> Passing:
@@ -196,6 +244,8 @@ def start_passing(spec: ChainDrive, scene: Start, count: int = _FOR_BOUNDS) -> P
     case = start_case(spec, scene)
     way, speed, acceleration, kinks = _motion(case)
     w = start_frequencies(case, count)
+    if isinstance(case.masses, HeldStrands) and not case.imposed_speed:  # the teeth move all modes, for their bound
+        w = np.sort(np.concatenate([w, of_loop(replace(case.masses, imposed_speed=True), 0.0, count)]))
     w = w[: swinging(ratios(spec, scene, w))]
     return Passing(
         masses=case.masses,

@@ -12,15 +12,16 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import loop_bounds, polygon
+from ptmcalc.laws import polygon, sprocket
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.chain_drive import loops
 from ptmcalc.machines.chain_drive.layout import TwoShafts
-from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, tail_teeth
+from ptmcalc.machines.chain_drive.loops import HeldStrands
+from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, has_driven_tail, tail_teeth
 from ptmcalc.machines.chain_drive.polygon.excitation import far_place, residual
 from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
 from ptmcalc.machines.chain_drive.speed_change.teeth import (
     Passing,
-    has_driven_tail,
     range_passing,
     start_passing,
 )
@@ -40,6 +41,9 @@ from ptmcalc.numerics import tooth_passes
 _LEADS = 2
 """Positions of the first joint within the pitch at the coarsest level; twice as many at each finer one. A numerical
 choice: the difference from half as many is in the error bar. More narrow it and take longer."""
+_LEADS_HELD = 8
+"""The same where each strand is held at both sprockets: every place of a joint stretches it. A numerical choice as
+`_LEADS`."""
 _MODES = 6
 """Modes that the teeth excite one by one at the coarsest level; twice as many at each finer one. A numerical choice:
 the rest is bounded and added. More narrow the error bar and take longer."""
@@ -126,19 +130,26 @@ def teeth_alone(spec: ChainDrive, passings: tuple[Passing, ...], case: StartCase
     return TeethAlone(entering, added, taken, work)
 
 
+def _leads(passing: Passing) -> int:
+    """Positions of the first joint at the coarsest level."""
+    return _LEADS_HELD if isinstance(passing.masses, HeldStrands) else _LEADS
+
+
 def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) -> _Found:
     """Every mode through the passes of the teeth at both ends, for several places of the first joint.
 
     The joints may stand anywhere when the change begins: the largest counts, and what it differs from that of half as
     many places is in the bar, with what the quadrature, the modes left out and the teeth of a driven sprocket may miss.
     """
-    count = _LEADS << level
+    count = _leads(passing) << level
     found = [_ridden(spec, passing, sections, k / count) for k in range(count)]
     tops, lows = (np.array([getattr(one, name) for one in found]) for name in ("largest", "smallest"))
     errors = np.max([one.error for one in found], axis=0)
     errors += np.concatenate([passing.left_out(spec, strand, x) for strand, x in (_RUN_ON, *sections)])
     if isinstance(spec.layout, TwoShafts):
         errors += _by_the_driven(spec, passing, sections)
+    if isinstance(passing.masses, HeldStrands):
+        errors += _worst_of_the_tail(spec, passing, sections, count)
     high, which = tops[:, 0].max(), int(tops[:, 0].argmax())
     apart = high - min(tops[::2, 0].max(), tops[1::2, 0].max())
     bar = float(errors[0] + apart)
@@ -173,12 +184,13 @@ def _ridden(
     on, off = passing.shapes(*_RUN_ON)[:, 0], passing.shapes(RETURN, np.zeros(1))[:, 0]
     gains = np.concatenate([passing.shapes(strand, x) for strand, x in (_RUN_ON, *sections)], axis=1)
     gains /= passing.masses.belt_mass
-    behind = np.concatenate([loop_bounds.quasi_static(passing.masses, *one) for one in (_RUN_ON, *sections)])
+    behind = np.concatenate([loops.quasi_static(passing.masses, *one) for one in (_RUN_ON, *sections)])
     behind = (
         behind * passing.started - begun @ gains
     )  # what the modes left out take of the mean acceleration, followed at once
-    fixed, stiffness = passing.masses.fixed_length, share * passing.stiffness
-    leads = (lead, (lead + (far_place(spec) or 0.0)) % 1.0) if fixed else (lead,)
+    fixed = passing.masses.fixed_length
+    stiffness = [share * one for one in _stretched(passing, sections)]
+    leads = (lead, (lead + _leaving_place(spec)) % 1.0) if fixed else (lead,)
 
     def moved(times: FloatArray, middles: FloatArray) -> FloatArray:
         found = passing.acceleration(times)[:, :, None] * begun
@@ -189,11 +201,12 @@ def _ridden(
 
     def followed(times: FloatArray, middles: FloatArray) -> FloatArray:
         found = passing.acceleration(times)[:, :, None] * behind
-        if not fixed:
-            return np.asarray(found)
-        both = [passing.places(spec, times, middles, one) for one in leads]
-        ahead = [polygon.polygon_displacement(one, spec.chain.pitch, spec.sprocket.teeth) for one in both]
-        return np.asarray(found + (stiffness * (ahead[0] - ahead[1]))[:, :, None])
+        for sign, springs, one in zip((1, -1), stiffness, leads, strict=False):
+            if np.any(springs):
+                places = passing.places(spec, times, middles, one)
+                ahead = passing.stretch(spec, times, places, spec.sprocket.teeth)
+                found = found + sign * ahead[:, :, None] * springs
+        return np.asarray(found)
 
     return tooth_passes.tooth_passes(
         passing.edges(spec, *leads),
@@ -204,6 +217,67 @@ def _ridden(
         followed,
         watch,
     )
+
+
+def _leaving_place(spec: ChainDrive) -> float:
+    """Place of the joints that leave the driving sprocket, against those that enter it [1]."""
+    if has_driven_tail(spec):
+        return sprocket.pitch_fraction(spec.sprocket.teeth / 2, 1.0)
+    return far_place(spec) or 0.0
+
+
+def _stretched(passing: Passing, sections: Sections) -> tuple[FloatArray, FloatArray]:
+    """Tension at the run-on and at sections per way by which the entering, and the leaving, chain runs ahead of the
+    driving sprocket [N/m]: of the loop by either, or of the strand that the end belongs to."""
+    strands = np.concatenate([np.full(len(x), strand) for strand, x in (_RUN_ON, *sections)])
+    held = passing.masses
+    if isinstance(held, HeldStrands):
+        on, off = (np.where(strands == one, held.stiffness_of(one), 0.0) for one in (CARRY, RETURN))
+        return on, off
+    return np.full(len(strands), passing.stiffness), np.full(len(strands), passing.stiffness)
+
+
+def _worst_of_the_tail(spec: ChainDrive, passing: Passing, sections: Sections, count: int) -> FloatArray:
+    """Most that the teeth of a driven tail add at the run-on and at sections for so many places of its first joint, and
+    what it differs from that of half as many [N]."""
+    found = np.array([_by_the_tail(spec, passing, sections, k / count) for k in range(count)])
+    most = found.max(axis=0)
+    return np.asarray(2 * most - np.minimum(found[::2].max(axis=0), found[1::2].max(axis=0)))
+
+
+def _by_the_tail(spec: ChainDrive, passing: Passing, sections: Sections, lead: float) -> FloatArray:
+    """Most that the teeth of a driven tail add at the run-on and at sections, on their own, with the first joint a lead
+    behind its engagement: nobody knows where they stand against those of the driving sprocket [N].
+
+    The tail moves the end of one strand and the beginning of the other: B_k(1) of the return, -B_k(0) of the working
+    strand, and the elongation of what it holds.
+    """
+    teeth, held = tail_teeth(spec), passing.masses
+    assert isinstance(held, HeldStrands)
+    far = passing.shapes(RETURN, np.ones(1))[:, 0] - passing.shapes(CARRY, np.zeros(1))[:, 0]
+    places = (_RUN_ON, *sections)
+    gains = np.concatenate([passing.shapes(strand, x) for strand, x in places], axis=1)
+    springs = np.concatenate(
+        [np.full(len(x), held.stiffness_of(strand) * (1 if strand == RETURN else -1)) for strand, x in places]
+    )
+
+    def moved(times: FloatArray, middles: FloatArray) -> FloatArray:
+        at = passing.places(spec, times, middles, lead)
+        return np.asarray(passing.polygon(spec, times, at, teeth)[:, :, None] * far)
+
+    def followed(times: FloatArray, middles: FloatArray) -> FloatArray:
+        at = passing.places(spec, times, middles, lead)
+        return np.asarray(passing.stretch(spec, times, at, teeth)[:, :, None] * springs)
+
+    found = tooth_passes.tooth_passes(
+        passing.edges(spec, lead),
+        moved,
+        passing.frequencies,
+        passing.damping_ratios,
+        gains / passing.masses.belt_mass,
+        followed,
+    )
+    return np.asarray(np.maximum(found.largest, -found.smallest) + found.error)
 
 
 def _seen(spec: ChainDrive, passing: Passing, sections: Sections, lead: float) -> tuple[FloatArray, FloatArray]:
@@ -260,7 +334,8 @@ def started(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int)
         a_on = e R cos(phi) - w^2 R sin(phi) - a_rigid
 
     The teeth act between the chain and its drive: a light drive yields to them. With a screw take-up the teeth of the
-    leaving strand act too, and the difference of both elongates the loop.
+    leaving strand act too, and the difference of both elongates the loop. With a driven tail the teeth of both
+    sprockets act on either strand; those of the tail are in the error bar.
 
     **Range** a speed or a torque over time, with the angle of the sprocket that of the rigid body.
     **Error** bounded as in `through`.
@@ -329,7 +404,7 @@ def cost_of_teeth(spec: ChainDrive, passing: Passing, sections: int, level: int)
         return 0.0
     fastest = float(np.max(passing.frequencies * np.maximum(1.0, 2 * passing.damping_ratios)))
     places = fastest * passing.window / 2 + 10 * float(passing.way(np.array([passing.window]))[0]) / spec.chain.pitch
-    return 5e-3 + (_LEADS << level) * places * len(passing.frequencies) * (_SECONDS + _PER_SECTION * sections)
+    return 5e-3 + (_leads(passing) << level) * places * len(passing.frequencies) * (_SECONDS + _PER_SECTION * sections)
 
 
 def range_valid(spec: ChainDrive, scene: SpeedRange) -> Criterion:
@@ -341,13 +416,16 @@ def range_valid(spec: ChainDrive, scene: SpeedRange) -> Criterion:
     **Error** exact: a count.
     **Source** polygon effect at both ends.
     """
-    return Criterion("n", float(has_driven_tail(spec)), 1.0, "driven tails: none", "count")
+    own = has_driven_tail(spec)
+    return Criterion(
+        "n", float(own), 1.0, "driven tail: its teeth are not followed" if own else "driven tails: none", "count"
+    )
 
 
 def start_valid(spec: ChainDrive, scene: Start) -> Criterion:
-    """Whether the speed of a start is known over time, and only its own teeth move the chain.
+    """Whether the speed of a start is known over time.
 
-        n = 1 for a tail that another drive turns, + 1 for a motor's curve or no motion
+        n = 1 for a torque shared with a drive of the tail, + 1 for a motor's curve or no motion
 
     **Range** any start.
     **Error** exact: a count.
@@ -355,8 +433,9 @@ def start_valid(spec: ChainDrive, scene: Start) -> Criterion:
     """
     case = start_case(spec, scene)
     unknown = case.follows_curve or not case.moves
-    count = float(has_driven_tail(spec)) + float(unknown)
-    return Criterion("n", count, 1.0, "driven tails, motor curves: none", "count")
+    if has_driven_tail(spec) and not case.imposed_speed:
+        return Criterion("n", 1.0, 1.0, "start by torque with a driven tail: its teeth are bounded as a whole", "count")
+    return Criterion("n", float(unknown), 1.0, "motor curves: none", "count")
 
 
 RANGE_NOTES: Solver[ChainDrive, SpeedRange] = Solver(

@@ -10,10 +10,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
-from ptmcalc.laws import loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.laws.start_profile import Phase
-from ptmcalc.machines.chain_drive import strength
+from ptmcalc.machines.chain_drive import loops, strength
+from ptmcalc.machines.chain_drive.loops import HeldStrands
 from ptmcalc.machines.chain_drive.model import FloatArray
 from ptmcalc.machines.chain_drive.spec import ChainDrive
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, Swinging
@@ -34,25 +34,28 @@ def static_at(case: Swinging, strand: int, x: FloatArray) -> FloatArray:
 
 def rigid_tensions(case: StartCase) -> tuple[float, float, float]:
     """Of the rigid body: largest run-on tension, its dynamic part, smallest tension anywhere [N]."""
-    swing = case.acceleration * float(loop_bounds.quasi_static(case.masses, CARRY, 1.0))
+    swing = case.acceleration * float(loops.quasi_static(case.masses, CARRY, 1.0))
     lows = []
     for strand in _STRANDS:
-        moved = case.acceleration * loop_bounds.quasi_static(case.masses, strand, _X)
+        moved = case.acceleration * loops.quasi_static(case.masses, strand, _X)
         lows.append(float((static_at(case, strand, _X) + np.minimum(moved, 0)).min()))
     return case.line.run_on + max(swing, 0.0), max(swing, 0.0), min(lows)
 
 
 def enclosed(case: StartCase) -> dict[str, Interval]:
     """Intervals that hold the largest dynamic run-on tension and the smallest tension anywhere [N]."""
-    lowest = loop_bounds.lowest_frequency_bound(case.masses)
+    lowest = loops.lowest_frequency_bound(case.masses)
     phases = case.phases(lowest)
-    r = float(loop_bounds.quasi_static(case.masses, CARRY, 1.0))
-    b = float(loop_bounds.stray(case.masses, CARRY, 1.0))
+    r = float(loops.quasi_static(case.masses, CARRY, 1.0))
+    b = float(loops.stray(case.masses, CARRY, 1.0))
     high = max(max(phase.low * r, phase.high * r, 0.0) + phase.stray * b for phase in phases)
     least = np.inf
     for strand in _STRANDS:
         band = _lowest(case, strand, phases)
-        least = min(least, float((band - _between_nodes(band)).min()))
+        bend = _between_nodes(band)
+        if isinstance(case.masses, HeldStrands):  # the stray has a corner in the middle of a strand
+            bend = np.maximum(bend, np.maximum(np.roll(bend, 1), np.roll(bend, -1)))
+        least = min(least, float((band - bend).min()))
     static = min(float(static_at(case, strand, _X[[0, -1]]).min()) for strand in _STRANDS)
     return {
         "tension_dynamic_start": Interval(0.0, case.acceleration * high),
@@ -61,7 +64,7 @@ def enclosed(case: StartCase) -> dict[str, Interval]:
 
 
 def _lowest(case: StartCase, strand: int, phases: tuple[Phase, ...]) -> FloatArray:
-    r, b = loop_bounds.quasi_static(case.masses, strand, _X), loop_bounds.stray(case.masses, strand, _X)
+    r, b = loops.quasi_static(case.masses, strand, _X), loops.stray(case.masses, strand, _X)
     low = np.zeros_like(_X)
     for phase in phases:
         low = np.minimum(low, np.minimum(phase.low * r, phase.high * r) - phase.stray * b)
@@ -78,10 +81,10 @@ def _between_nodes(values: FloatArray) -> FloatArray:
 
 def stray_ratio(case: StartCase) -> float:
     """Largest stray of the tension from its quasi-static value over the static tension, over all sections."""
-    factor = max(phase.stray for phase in case.phases(loop_bounds.lowest_frequency_bound(case.masses)))
+    factor = max(phase.stray for phase in case.phases(loops.lowest_frequency_bound(case.masses)))
     ratio = 0.0
     for strand in _STRANDS:
-        swing = case.acceleration * loop_bounds.stray(case.masses, strand, _X) * factor
+        swing = case.acceleration * loops.stray(case.masses, strand, _X) * factor
         static = static_at(case, strand, _X)
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = max(ratio, float(np.max(np.where(static > 0, swing / static, np.where(swing > 0, np.inf, 0)))))

@@ -7,6 +7,7 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import start_profile
+from ptmcalc.machines.chain_drive.model import has_driven_tail
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case
@@ -54,26 +55,28 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     """Whether a drive takes up a relaxed chain by its torque.
 
         n = 1 for each of: running tensions in the chain, no motion, an imposed speed, a motor's curve, a fixed length,
-        a load that drives
+        a load that drives, a driven tail
 
     **Range** any start.
     **Error** exact: a count.
     **Source** two masses and one spring.
     """
     case = start_case(spec, scene)
-    count = sum(_hindrances(scene, case))
-    return Criterion("n", float(count), 1.0, "features outside the two-mass model: none", "count")
+    found = [name for name, one in _hindrances(spec, scene, case).items() if one]
+    meaning = ", ".join(found) if found else "features outside the two-mass model: none"
+    return Criterion("n", float(len(found)), 1.0, meaning, "count")
 
 
-def _hindrances(scene: Start, case: StartCase) -> tuple[bool, ...]:
-    return (
-        scene.chain != "relaxed",
-        not case.moves,
-        case.imposed_speed,
-        case.follows_curve,
-        case.line.fixed_length,
-        case.line.static_resistance <= 0,
-    )
+def _hindrances(spec: ChainDrive, scene: Start, case: StartCase) -> dict[str, bool]:
+    return {
+        "chain with its running tensions": scene.chain != "relaxed",
+        "no motion": not case.moves,
+        "imposed speed": case.imposed_speed,
+        "motor curve": case.follows_curve,
+        "loop of fixed length": case.line.fixed_length,
+        "load that drives": case.line.static_resistance <= 0,
+        "driven tail": has_driven_tail(spec),
+    }
 
 
 BREAKAWAY: Solver[ChainDrive, Start] = Solver(

@@ -5,14 +5,16 @@ from the first moment on. It is held (by friction, brake or backstop) until the 
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Protocol
 
 import numpy as np
 
-from ptmcalc.laws import chain_start, loop_bounds, start_profile
+from ptmcalc.laws import chain_start, start_profile
 from ptmcalc.laws.loop_bounds import LoopMasses
+from ptmcalc.machines.chain_drive import loops
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.loops import HeldStrands
 from ptmcalc.machines.chain_drive.model import (
     ChainLine,
     FloatArray,
@@ -22,6 +24,7 @@ from ptmcalc.machines.chain_drive.model import (
     drive_of,
     filled,
     gear_side_inertia,
+    has_driven_tail,
     mean_arm,
     sprocket_inertia,
 )
@@ -58,8 +61,11 @@ def sprocket_mass(spec: ChainDrive) -> float:
     return sprocket_inertia(spec) / mean_arm(spec) ** 2
 
 
-def light_return(spec: ChainDrive, loop: LoopMasses) -> LoopMasses:
-    """The loop that swings: between two shafts only the tight strand, with the driven machine at its end."""
+def swinging_loop(spec: ChainDrive, loop: LoopMasses) -> LoopMasses:
+    """The loop that swings: between two shafts only the tight strand, with the driven machine at its end; each strand
+    on its own where a driven tail keeps the speed of the drive."""
+    if has_driven_tail(spec):
+        return HeldStrands(**{one.name: getattr(loop, one.name) for one in fields(loop)})
     if not isinstance(spec.layout, TwoShafts):
         return loop
     return replace(loop, return_mass=loop.carry_mass * _LIGHT, return_compliance=loop.carry_compliance)
@@ -188,11 +194,11 @@ def start_case(spec: ChainDrive, scene: Start) -> StartCase:
     plateau, losses = rigid_acceleration(spec, line, motor_torque(spec))
     drive = losses * gear_side_inertia(spec) * (gear.ratio / arm) ** 2 + sprocket_mass(spec)
     imposed = profile.imposes_speed
-    loop = light_return(spec, line.masses(0.0 if imposed else drive, imposed))
+    loop = swinging_loop(spec, line.masses(0.0 if imposed else drive, imposed))
     available = losses * motor_torque(spec) * gear.ratio / arm
     shape, rise_time = profile.rise, profile.rise_time
     acceleration = held = end = window = 0.0
-    after = _PERIODS * 2 * math.pi / loop_bounds.lowest_frequency_bound(loop)
+    after = _PERIODS * 2 * math.pi / loops.lowest_frequency_bound(loop)
     if imposed:
         acceleration = line.speed * start_profile.peak_rate(shape, rise_time)
         end, window = rise_time, scene.window_factor * (rise_time + after)

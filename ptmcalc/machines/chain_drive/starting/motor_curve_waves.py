@@ -14,13 +14,14 @@ from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.model import FloatArray
+from ptmcalc.machines.chain_drive.model import FloatArray, has_driven_tail
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, sprocket_mass, start_case
 from ptmcalc.machines.chain_drive.starting.motor_force import StartForce, gear_of, stands_still, start_force
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import (
+    CURVE_SHARED,
     Sections,
     beyond_slack,
     felt,
@@ -344,18 +345,17 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     """Whether the start follows the curve of motors that move the chain.
 
         n = 1 for a start without a curve, + 1 for motors that never pull more than the chain resists at standstill,
-        + 1 for a tail with a drive of its own
+        or 1 for a torque shared with a drive of the tail
 
     **Range** any start.
     **Error** exact: a count.
     **Source** Newton's law.
     """
     case = start_case(spec, scene)
-    own = getattr(spec.layout, "tail", None)
-    count = (not case.follows_curve) + (own is not None and own.driven == "on")
-    if case.follows_curve:
-        count += stands_still(spec, case)
-    meaning = "no motor curve, insufficient torque at standstill, driven tail: none of them"
+    if case.follows_curve and has_driven_tail(spec):
+        return CURVE_SHARED
+    count = (not case.follows_curve) + (case.follows_curve and stands_still(spec, case))
+    meaning = "no motor curve, insufficient torque at standstill: none of them"
     return Criterion("n", float(count), 1.0, meaning, "count")
 
 

@@ -9,7 +9,15 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_start, inertia, wave
-from ptmcalc.machines.chain_drive.model import drive_of, filled, gear_side_inertia, mean_arm, radius, sprocket_inertia
+from ptmcalc.machines.chain_drive.model import (
+    drive_of,
+    filled,
+    gear_side_inertia,
+    mean_arm,
+    radius,
+    shares_torque,
+    sprocket_inertia,
+)
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, rigid_tensions
 from ptmcalc.machines.chain_drive.starting.geared import geared_start
@@ -32,10 +40,11 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
         m a + W = e (M i/R - J (i/R)^2 a),   e = eta or 1/eta by the direction of the power
         J_red = J + m (R/i)^2/e,   t = (J_red/(M - W R/(e i))) w,   S = S_static + a r
 
-    m includes chain, load, tail and sprocket; R = z p/(2 pi). r is the mass accelerated by the entering strand (gravity
-    take-up), or this mass less its mean over the loop (screw take-up). For an imposed speed a = V q'_max. A star-delta
-    starter, a soft starter or fluid couplings change M over speed and time. On a curve a is the largest acceleration on
-    the way to the operating speed.
+    m includes chain, load, tail and sprocket; R = z p/(2 pi). r is the mass accelerated by the entering strand
+    (gravity take-up), or this mass less its mean over the loop (screw take-up); with a driven tail, which has the
+    speed of the driving sprocket, half of the mass of the working strand. For an imposed speed a = V q'_max. A
+    star-delta starter, a soft starter or fluid couplings change M over speed and time. On a curve a is the largest
+    acceleration on the way to the operating speed.
 
     **Range** any start; the gear losses are those at full torque.
     **Error** no error bar of its own except the quadrature error on a motor curve; the bounds of the effects cover
@@ -49,6 +58,8 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
     loads["start_time"] = _start_time(spec, scene, case)
     if case.follows_curve:
         loads |= _on_curve(spec, scene, case)
+    if shares_torque(spec) and not case.imposed_speed:
+        loads |= {name: Estimate.unknown(loads[name].value) for name in TENSIONS if name in loads}
     loads |= permitted_starts(spec, scene, case)
     window = (0.0, case.held + case.window)
     found = {name: Found(load) for name, load in loads.items()}

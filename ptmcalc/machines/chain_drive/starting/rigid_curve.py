@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
-from ptmcalc.laws import loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.chain_drive import loops
 from ptmcalc.machines.chain_drive.model import FloatArray
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import static_at
@@ -119,7 +119,7 @@ def _followed(spec: ChainDrive, scene: Start, case: StartCase) -> RigidStart | N
         return None
     none, mass = np.zeros(0), loop.total_mass
     step = max(case.end, _SHORT) / _STEPS if math.isfinite(case.end) and case.end > 0 else math.inf
-    whole = np.concatenate([loop_bounds.quasi_static(loop, *one) for one in _WAVES]) / mass
+    whole = np.concatenate([loops.quasi_static(loop, *one) for one in _WAVES]) / mass
     places = Places(np.zeros((0, len(whole))), whole, np.zeros(len(whole)), np.full(len(whole), mass))
     body, gear = Body(mass, none, none, none, 0.0), gear_of(spec, case)
     step = min([step, *(rise / _STEPS for rise in (force.motors.fill, *force.kinks) if rise > 0)])

@@ -11,9 +11,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.model import FloatArray, of_loop, tension_key
+from ptmcalc.machines.chain_drive import loops
+from ptmcalc.machines.chain_drive.model import FloatArray, has_driven_tail, of_loop, shares_torque, tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, Swinging, ratios, start_case
@@ -73,7 +73,7 @@ def one_mode(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int
     case = start_case(spec, scene)
     _require_motion(case)
     w = natural_frequencies(case, 1)
-    whole = loop_bounds.quasi_static(case.masses, CARRY, np.ones(1))
+    whole = loops.quasi_static(case.masses, CARRY, np.ones(1))
     modes = Modes(w, ratios(spec, scene, w), whole[None, :], whole, np.zeros(1))
     peaks = mode_sum(modes, case.course, case.window)
     dynamic = _ever(_largest(case, peaks, 0), later(case, modes))
@@ -153,9 +153,12 @@ def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
         S(s) = a (r(s) q + sum M_k(s) (x_k - q))
 
     M_k(s) are the parts of the modes (`chain_resonance.modal_tensions`), with the internal damping of the file at each
-    frequency. The entering strand uses more modes than the sections along both strands.
+    frequency. The entering strand uses more modes than the sections along both strands. A driven tail has the speed
+    of the other sprocket, by the profile or as it is synchronised: each strand swings on its own, held at both ends,
+    the return strand free at a gravity take-up (`laws.held_strands`).
 
-    **Range** a taut chain that slides forward; hysteretic and Zener damping by the ratio of each mode.
+    **Range** a taut chain that slides forward; hysteretic and Zener damping by the ratio of each mode; with a driven
+    tail a profile of speed, or synchronised sprockets.
     **Error** bounded: samples, sections and neglected modes.
     **Source** sums over modes, derived in `numerics.mode_sum` and `chain_resonance`; equal to d'Alembert's waves with
     all of them.
@@ -260,9 +263,9 @@ def modes_at(spec: ChainDrive, scene: ChainScene, case: Swinging, count: int, se
     """The modes of a start at sections."""
     w = natural_frequencies(case, count)
     masses = case.masses
-    gains = np.concatenate([chain_resonance.modal_tensions(masses, w, *one) for one in sections], axis=1)
-    whole = np.concatenate([loop_bounds.quasi_static(masses, *one) for one in sections])
-    rest = np.concatenate([chain_resonance.modal_rest(masses, w, *one) for one in sections])
+    gains = np.concatenate([loops.modal_tensions(masses, w, *one) for one in sections], axis=1)
+    whole = np.concatenate([loops.quasi_static(masses, *one) for one in sections])
+    rest = np.concatenate([loops.modal_rest(masses, w, *one) for one in sections])
     return Modes(w, ratios(spec, scene, w), gains, whole, rest)
 
 
@@ -321,7 +324,7 @@ def _between_sections(case: Swinging, sections: Sections, count: int) -> float:
     stray = jumps + variation / w
     worst = 0.0
     for strand, x in sections:
-        gains = np.abs(chain_resonance.modal_tensions(case.masses, w, strand, x)).max(axis=1)
+        gains = np.abs(loops.modal_tensions(case.masses, w, strand, x)).max(axis=1)
         bend = (w * travel_time(case, strand) * float(x[1])) ** 2 / 8
         worst = max(worst, float(np.sum(bend * gains * stray)))
     return worst
@@ -336,20 +339,52 @@ def _waves_cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: 
     return 5e-3 + 1e-7 * _samples(case, count) * count + _SECONDS / 20 * _samples(case, along) * along * sections
 
 
+CURVE_SHARED = Criterion(
+    "n",
+    1.0,
+    1.0,
+    "motor curve with a driven tail: how both drives share the torque is not known",
+    "count",
+)
+"""Why a start on a motor curve is not followed where the tail has a drive of its own."""
+
+
+TORQUE_SHARED = Criterion(
+    "n", 1.0, 1.0, "driven tail that is not synchronised: how both drives share the torque is not known", "count"
+)
+"""Why a start by torque, or a stop, is not followed where both sprockets may turn apart."""
+
+
 def valid(spec: ChainDrive, scene: Start) -> Criterion:
     """Whether the modes of a start are known: something moves, and nothing but torque or speed over time drives.
 
-        n = 1 for a drive too weak, + 1 for a motor's curve, + 1 for a tail with a drive of its own
+        n = 1 for a drive too weak, + 1 for a motor's curve, or 1 for a torque shared with a drive of the tail
 
     **Range** any start.
     **Error** exact: a count.
     **Source** Newton's law; a torque that goes with the speed damps and drives the modes.
     """
     case = start_case(spec, scene)
-    own = getattr(spec.layout, "tail", None)
-    count = (not case.moves) + case.follows_curve + (own is not None and own.driven == "on")
-    meaning = "insufficient drive force, motor curve, driven tail: none of them"
-    return Criterion("n", float(count), 1.0, meaning, "count")
+    if has_driven_tail(spec) and case.follows_curve:
+        return CURVE_SHARED
+    if shares_torque(spec) and not case.imposed_speed:
+        return TORQUE_SHARED
+    count = (not case.moves) + case.follows_curve
+    return Criterion("n", float(count), 1.0, "insufficient drive force, motor curve: none of them", "count")
+
+
+def one_mode_valid(spec: ChainDrive, scene: Start) -> Criterion:
+    """Whether two masses stand for a start: as `valid`, and one loop swings, not each strand on its own.
+
+        n of `valid`, + 1 for a tail with a drive of its own
+
+    **Range** any start.
+    **Error** exact: a count.
+    **Source** two strands that are held at the tail have no common first mode.
+    """
+    if has_driven_tail(spec):
+        return Criterion("n", 1.0, 1.0, "driven tail: each strand swings on its own", "count")
+    return valid(spec, scene)
 
 
 ONE_MODE: Solver[ChainDrive, Start] = Solver(
@@ -362,7 +397,7 @@ ONE_MODE: Solver[ChainDrive, Start] = Solver(
     run=one_mode,
     cost=_one_mode_cost,
     source="reduced system of two masses",
-    valid=valid,
+    valid=one_mode_valid,
     always=frozenset({"chain_elasticity"}),
     method="sums over modes",
 )

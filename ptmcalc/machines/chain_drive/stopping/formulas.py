@@ -13,7 +13,15 @@ from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.chain_drive.holding.scenes import elsewhere
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import ChainLine, FloatArray, chain_line, mean_arm, natural_frequencies, radius
+from ptmcalc.machines.chain_drive.model import (
+    ChainLine,
+    FloatArray,
+    chain_line,
+    mean_arm,
+    natural_frequencies,
+    radius,
+    shares_torque,
+)
 from ptmcalc.machines.chain_drive.spec import (
     ChainDrive,
     ChainScene,
@@ -27,6 +35,7 @@ from ptmcalc.machines.chain_drive.spec import (
 )
 from ptmcalc.machines.chain_drive.starting.motion import speed_over_time
 from ptmcalc.machines.chain_drive.starting.waves import (
+    TORQUE_SHARED,
     beyond_slack,
     course_at,
     extreme_anywhere,
@@ -61,7 +70,8 @@ def run(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) 
     after its delay. The tension added by braking is that of the permissible stopping distance, or that of the given
     brake torque.
 
-    **Range** any stop; infinite if nothing stops the motion.
+    **Range** any stop; infinite if nothing stops the motion. With a driven tail the brake is that of both sprockets;
+    the tensions are known where they are synchronised.
     **Error** none of its own; the bound of the wave effect covers the tensions added by waves.
     **Source** lecture notes Kramatorsk 2007 in the signed form (`laws.stopping`).
     """
@@ -91,7 +101,11 @@ def run(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) 
             for coefficient in told.values()
             for finding in too_long_a_way(spec.all_scenes, scene, scene.measured_distance, coefficient)
         )
-    exact = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    unknown = OF_STOP if shares_torque(spec) else frozenset[str]()
+    exact = {
+        name: Found(Estimate.unknown(value) if name in unknown else Estimate.exact(value))
+        for name, value in loads.items()
+    }
     return Result(exact, work=1, findings=findings, histories=lambda: _histories(spec, case))
 
 
@@ -181,18 +195,18 @@ def _held_together(found: list[tuple[Estimate, At]], of: Callable[..., float]) -
 def waves_valid(spec: ChainDrive, scene: Stopping) -> Criterion:
     """Whether there is a stop to compute: it ends, and not after ever so many swings.
 
-        n = f_1 t/1000 for a time t to rest; infinite for a driven tail
+        n = f_1 t/1000 for a time t to rest; 1 where nothing stops it, or where a driven tail is not synchronised
 
     **Range** any stop.
     **Error** exact.
     **Source** the waves of a stop are followed from the first moment to rest.
     """
-    tail = getattr(spec.layout, "tail", None)
-    if tail is not None and tail.driven == "on":
-        value = math.inf
-    else:
-        time, _ = stop_case(spec, scene).rest()
-        value = math.inf if math.isinf(time) else time * float(natural_frequencies(spec, scene)[0]) / (2e3 * math.pi)
+    if shares_torque(spec):
+        return TORQUE_SHARED
+    time, _ = stop_case(spec, scene).rest()
+    if math.isinf(time):
+        return Criterion("n", 1.0, 1.0, "nothing stops the motion", "count")
+    value = time * float(natural_frequencies(spec, scene)[0]) / (2e3 * math.pi)
     return Criterion("n", value, 1.0, "oscillations of the chain before standstill, in thousands", "count")
 
 

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ptmcalc.laws import loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
+from ptmcalc.machines.chain_drive import loops
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import ChainLine, chain_line, drive_of, filled, mean_arm, motor_side_inertia
 from ptmcalc.machines.chain_drive.spec import Brake, ChainDrive, ChainScene, Coast, EmergencyStop, Stop, Stopping
-from ptmcalc.machines.chain_drive.starting.motion import light_return, sprocket_mass
+from ptmcalc.machines.chain_drive.starting.motion import sprocket_mass, swinging_loop
 from ptmcalc.numerics.mode_sum import Course
 
 _SECTIONS = 65
@@ -179,7 +179,7 @@ def swings(spec: ChainDrive, case: StopCase) -> Iterator[StopSwing]:
     zero = np.zeros(len(begins))
     course = Course(np.array(begins), np.array(values) / most, np.array(slopes) / most, zero, zero, zero)
     for losses in (case.efficiency, 1 / case.efficiency):
-        loop = light_return(spec, case.masses(losses))
+        loop = swinging_loop(spec, case.masses(losses))
         yield StopSwing(case.line, loop, most, course, time)
 
 
@@ -230,10 +230,10 @@ def extremes(spec: ChainDrive, case: StopCase) -> Extremes:
     changes = abs(coasting) + abs(hardest - coasting)
     found = Extremes(math.inf, math.inf, -math.inf, -math.inf)
     for losses in (case.efficiency, 1 / case.efficiency):
-        loop = light_return(spec, case.masses(losses))
+        loop = swinging_loop(spec, case.masses(losses))
         for strand, part in ((RETURN, case.line.back), (CARRY, case.line.working)):
             static = part.begin + x * (part.end - part.begin)
-            r, stray = loop_bounds.quasi_static(loop, strand, x), changes * loop_bounds.stray(loop, strand, x)
+            r, stray = loops.quasi_static(loop, strand, x), changes * loops.stray(loop, strand, x)
             levels = static + np.array([0.0 * r, -r * hardest, -r * coasting])
             low, high = levels.min(axis=0), levels.max(axis=0)
             bend = float(np.abs(np.diff(stray, 2)).max()) / 8 + float(np.abs(np.diff(levels, 2)).max()) / 8
