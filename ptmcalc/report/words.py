@@ -213,4 +213,5 @@ def summary(totals: dict[str, int]) -> str:
         )
         if totals[key]
     ]
-    return ", ".join([files, f"{totals['pass']} checks passed", *counted])
+    passed = f"{totals['pass']} check{'' if totals['pass'] == 1 else 's'} passed"
+    return ", ".join([files, passed, *counted])
