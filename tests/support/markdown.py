@@ -10,6 +10,7 @@ declare them, for each end is one more run.
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -25,10 +26,13 @@ _EXPECTED = re.compile(r"#\s*(pass|fail|undecided|not_checked|error|warning)\s+(
 
 class MarkdownFile(pytest.File):
     def collect(self) -> Iterator["MarkdownCase"]:
-        text = self.path.read_text("utf-8")
+        text, met = self.path.read_text("utf-8"), Counter[str]()
         for match in _BLOCK.finditer(text):
             headings = re.findall(r"^#+ (.*)$", text[: match.start()], re.MULTILINE)
-            yield MarkdownCase.from_parent(self, name=headings[-1] if headings else "case", block=match[1])
+            name = headings[-1] if headings else "case"
+            met[name] += 1  # several processes run one test of each name
+            numbered = f"{name} ({met[name]})" if met[name] > 1 else name
+            yield MarkdownCase.from_parent(self, name=numbered, block=match[1])
 
 
 class MarkdownCase(pytest.Item):
