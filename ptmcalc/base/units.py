@@ -94,6 +94,7 @@ _HINTS: Mapping[str, str] = MappingProxyType(
         "lb/m": "write `kg/m`: 1 lb/m = 0.45359 kg/m",
         "lb/ft": "write `kg/m`: 1 lb/ft = 1.48816 kg/m",
         "fpm": "write `m/s`: 1 ft/min = 0.00508 m/s",
+        "J/(kg*K)": "write `J/kg*K`",
         "°C": "an angle is in `deg`, a temperature difference in `K`",
     }
 )
@@ -141,6 +142,7 @@ SPAN = _quantity("distance", "m", "m", example="850 m")
 TIME = _quantity("time", "s", "ms", "s", example="12 s")
 ANGLE = _quantity("angle", "rad", "deg", example="210 deg")
 SLOPE = _quantity("angle", "rad", "deg", example="35 deg")
+TURN = _quantity("angle", "rad", "rev", example="12 rev")
 TILT = _quantity("angle", "rad", "deg", example="5 deg")
 SPEED = _quantity("speed", "m/s", "m/s", example="3.15 m/s")
 ACCELERATION = _quantity("acceleration", "m/s^2", example="0.3 m/s^2")
@@ -177,6 +179,7 @@ PRESSURE = _quantity("pressure", "Pa", "kPa", "MPa", example="50 kPa")
 SECOND_MOMENT = _quantity("second moment of area", "m^4", "cm^4", example="20000 cm^4")
 TEMPERATURE_DIFFERENCE = _quantity("temperature difference", "K", example="40 K")
 THERMAL_EXPANSION = _quantity("thermal expansion coefficient", "1/K", example="0.000012 1/K")
+SPECIFIC_HEAT = _quantity("specific heat", "J/kg*K", example="500 J/kg*K")
 SECTION_MODULUS = _quantity("section modulus", "m^3", "cm^3", example="1600 cm^3")
 
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"

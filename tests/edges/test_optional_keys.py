@@ -19,7 +19,12 @@ from ptmcalc.spec.optional import Absent, Assumed, Declared, OneOf, Setting, dec
 from ptmcalc.spec.shape import measure_of
 
 EDGES = Path(__file__).parent
-PLATES = ("chain_drive/rating-plate.yaml", "conveyor/rating-plate.yaml", "conveyor/drives-and-winch.yaml")
+PLATES = (
+    "chain_drive/rating-plate.yaml",
+    "conveyor/rating-plate.yaml",
+    "conveyor/drives-and-winch.yaml",
+    "hoist/emergency-stop.yaml",
+)
 """More files whose keys are left out."""
 
 

@@ -10,6 +10,7 @@ from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import lift_off_standard
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.assumptions import assumptions
+from ptmcalc.machines.hoist.braking.topic import BRAKING
 from ptmcalc.machines.hoist.drive.topic import DRIVE
 from ptmcalc.machines.hoist.figures import FIGURES
 from ptmcalc.machines.hoist.model import drum_speed
@@ -84,7 +85,7 @@ def _editions_that_differ(spec: Hoist) -> Iterator[Finding]:
         )
 
 
-TOPICS = (STATICS, DRIVE, MOTION, WINDING)
+TOPICS = (STATICS, DRIVE, MOTION, WINDING, BRAKING)
 
 KIND = MachineKind(
     name="hoist",

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
-from ptmcalc.contract.machine import Assumption
+from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws.duty import DUTY_TYPES
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.braking.loads import ONE_STOP, REPEATED
+from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist
 
 _MASS_FACTOR, _LIGHT, _HEAVY = 3800.0, 3400.0, 4300.0
 """Mass per length of a rope relative to the square of its diameter [kg/m^3], EN 12385-4. `_MASS_FACTOR`: default.
@@ -105,6 +106,34 @@ _OF_THE_TACKLE: tuple[Assumption[Hoist], ...] = (
 )
 
 
+_SPECIFIC_HEAT, _LEAST_HEAT, _MOST_HEAT = 500.0, 460.0, 540.0
+"""Specific heat of brake discs [J/(kg K)]: steel 490 to 500, grey iron 500 to 540, some steels 460. The temperature
+rise of a stop is inversely proportional to it; wider limits widen its range."""
+_COOLING, _FAST, _SLOW = 2400.0, 1200.0, 3600.0
+"""Time constant of the cooling of brake discs [s]: an engineering range of 20 to 60 min. The temperature of many stops
+is nearly proportional to it; wider limits widen its range."""
+
+
+def _of_the_brake() -> Iterator[Assumption[Hoist]]:
+    """What is assumed of the heat of the brake, where the file gives its discs."""
+    yield Assumption(
+        ("brake", "specific_heat"),
+        units.SPECIFIC_HEAT,
+        lambda spec: _SPECIFIC_HEAT,
+        lambda spec: Interval(_LEAST_HEAT, _MOST_HEAT),
+        "steel 490 to 500 J/(kg K), grey iron 500 to 540; some steels 460",
+        Use(frozenset({EmergencyStop}), frozenset({ONE_STOP, REPEATED})),
+    )
+    yield Assumption(
+        ("brake", "cooling_time"),
+        units.TIME,
+        lambda spec: _COOLING if spec.brake is not None and spec.brake.stops_per_hour is not None else None,
+        lambda spec: Interval(_FAST, _SLOW),
+        "engineering range of 20 to 60 min, to be compared with the data sheet of the brake",
+        Use(frozenset({EmergencyStop}), frozenset({REPEATED})),
+    )
+
+
 def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
     """What is assumed of tackle, rope and drum, and of the drive where the file has one."""
     yield from _OF_THE_TACKLE
@@ -141,6 +170,8 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
             "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
         )
+    if spec.brake is not None and spec.brake.disc_mass is not None:
+        yield from _of_the_brake()
     if any(scene.type == "winding" for scene in spec.all_scenes):
         yield Assumption(
             ("winding", "crossover"),

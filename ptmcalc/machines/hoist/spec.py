@@ -166,6 +166,21 @@ class LowerBrake(HoistScene, TransientScene):
     """before the stop"""
 
 
+class EmergencyStop(HoistScene):
+    """The motor loses its power or is switched off while the hook moves, and the brake stops the drive."""
+
+    type: Literal["emergency_stop"] = "emergency_stop"
+    direction: Literal["up", "down"] = "down"
+    """of the load"""
+    speed: Literal["main", "creep"] = "main"
+    """before the stop"""
+    motor_speed: Annotated[PositiveAngularSpeed | None, Setting("the speed of the steady motion before the stop")] = (
+        None
+    )
+    """of the motor shaft when the power is lost, such as the trip speed of an overspeed switch; default: that of
+    `speed`"""
+
+
 class Release(HoistScene, TransientScene):
     """Sudden release of a part of the suspended load: grab, magnet, cut sling."""
 
@@ -186,7 +201,9 @@ class WindUp(HoistScene, TransientScene):
     """the layer after the change"""
 
 
-AnyScene = Annotated[Run | Lift | Start | Stop | LowerBrake | Release | WindUp, Field(discriminator="type")]
+AnyScene = Annotated[
+    Run | Lift | Start | Stop | LowerBrake | EmergencyStop | Release | WindUp, Field(discriminator="type")
+]
 
 
 CREEPING = ("HD2", "HD3")
@@ -232,8 +249,8 @@ class Hoist(MachineSpec):
     checks: HoistChecks = HoistChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """load cases; default: a loaded run, with a complete drive also a lift-off and a stop of a lowered
-    load"""
+    """load cases; default: a loaded run, with a complete drive also a lift-off and a stop of a lowered load; with data
+    of the heat of the brake also an emergency stop of a lowered load"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -252,7 +269,8 @@ class Hoist(MachineSpec):
         if self.motor is None or self.gearbox is None or self.brake is None:
             return (Run(),)
         creeps = self.speed.creep is not None and self.classes.drive in CREEPING
-        return _followed(self, (Run(), Lift(speed="creep" if creeps else "main"), LowerBrake()))
+        usual = (Run(), Lift(speed="creep" if creeps else "main"), LowerBrake())
+        return _followed(self, (*usual, EmergencyStop()) if self.brake.heats else usual)
 
     @property
     def settings(self) -> HoistChecks:
@@ -269,8 +287,8 @@ def _followed(spec: Hoist, scenes: tuple[HoistScene, ...]) -> tuple[HoistScene, 
     )
 
 
-_DRIVEN = ("lift", "start", "stop", "lower_brake")
-_BRAKED = ("stop", "lower_brake")
+_DRIVEN = ("lift", "start", "stop", "lower_brake", "emergency_stop")
+_BRAKED = ("stop", "lower_brake", "emergency_stop")
 
 
 def _scenes_that_lack(given: Given) -> Iterator[Conflict]:

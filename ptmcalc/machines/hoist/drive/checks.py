@@ -8,7 +8,7 @@ from ptmcalc.contract.limits import fixed, key
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.model import loaded
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
+from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist, HoistScene, LowerBrake, Run, Start, Stop
 
 OneCheck = Check[Hoist, Run]
 RUNNING = frozenset({Run})
@@ -198,7 +198,7 @@ BRAKE: OneCheck = only(_brake_wanted)(
         question="Does the brake torque exceed the load torque with the required reserve?",
         failure="holding torque reserve of the brake is too small",
         limit_state=LimitState("load drops with the brake applied", 1),
-        scenes=frozenset({Run, Stop, LowerBrake}),
+        scenes=frozenset({Run, Stop, LowerBrake, EmergencyStop}),
         loads=("brake_reserve_static",),
         sense=Sense.AT_LEAST,
         limit=_brake_limit,

@@ -13,7 +13,7 @@ from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.keys.drive import Duty
 from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Start, Stop
+from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist, HoistScene, LowerBrake, Start, Stop
 
 Numbers = dict[str, float]
 
@@ -61,8 +61,10 @@ def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
 def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     """What the closed brake holds, and what happens where it does not."""
     speed = 0.0
-    if isinstance(scene, LowerBrake) or (isinstance(scene, Stop) and scene.direction == "down"):
+    if isinstance(scene, LowerBrake) or (isinstance(scene, Stop | EmergencyStop) and scene.direction == "down"):
         speed = filled(spec.speed.creep) if scene.speed == "creep" else model.hook_speed(spec)
+        if isinstance(scene, EmergencyStop) and scene.motor_speed is not None:
+            speed = model.hook_speed(spec) * scene.motor_speed / torques.motor_speed(spec)
     held = torques.held(spec, model.hook_mass(spec, scene), scene.hook_height, speed)
     if held is None:
         return {}
@@ -128,7 +130,7 @@ def _where_the_brake_lets_go(spec: Hoist, scene: HoistScene) -> Iterator[Finding
 
     The stop is simulated with the hook at its lowest; the check of the closed brake takes the worst height.
     """
-    if scene.hook_height is not None or (isinstance(scene, Stop) and scene.direction == "up"):
+    if scene.hook_height is not None or (isinstance(scene, Stop | EmergencyStop) and scene.direction == "up"):
         return
     mass = model.hook_mass(spec, scene)
     for layer, height in enumerate(model.layer_heights(spec), 1):
@@ -149,7 +151,7 @@ HOLDING: Solver[Hoist, HoistScene] = Solver(
     name="holding_brake",
     title="brake holding torque",
     fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Stop, LowerBrake}),
+    scenes=frozenset({Stop, LowerBrake, EmergencyStop}),
     represents=frozenset(),
     gives=frozenset({"brake_torque_static", "brake_reserve_static", "drop_distance", "drop_speed"}),
     run=hold,

@@ -11,7 +11,10 @@ from ptmcalc.laws.duty import DUTY_TYPES
 from ptmcalc.spec.fields import (
     HourlyRate,
     Measure,
+    PositiveEnergy,
+    PositiveMass,
     PositiveShare,
+    PositiveTime,
     PositiveTorque,
     ReverseEfficiency,
     RunningTime,
@@ -70,6 +73,27 @@ class Brake(Fragment):
     """from then to full torque"""
     rise: Literal["linear", "exponential"] = "linear"
     """how it rises; `rise_time` is the time constant of an exponential rise"""
+    disc_mass: Annotated[PositiveMass | None, Checked()] = None
+    """of all brake discs or drums together; needed for their temperature in emergency stops"""
+    specific_heat: Annotated[Annotated[float, Measure(units.SPECIFIC_HEAT, above=0)] | None, Assumed()] = None
+    """of the discs or drums, with `disc_mass`; 500 J/(kg K) is assumed, 460 to 540"""
+    cooling_time: Annotated[PositiveTime | None, Assumed()] = None
+    """time constant of the cooling of the discs, m c/(alpha A), with `stops_per_hour`; 2400 s is assumed"""
+    stops_per_hour: Annotated[HourlyRate | None, Checked()] = None
+    """emergency stops per hour at equal intervals; needed for the temperature of repeated stops"""
+    temperature_rise: Annotated[Annotated[float, Measure(units.TEMPERATURE_DIFFERENCE, above=0)] | None, Limit()] = None
+    """permissible mean temperature rise of the discs above the ambient air"""
+    stop_heat: Annotated[PositiveEnergy | None, Limit()] = None
+    """permissible friction work of one stop, from the data sheet"""
+    friction_work: Annotated[PositiveEnergy | None, Checked()] = None
+    """permissible friction work until the lining is readjusted or replaced, from the data sheet"""
+    stops_per_service: Annotated[Annotated[float, Measure(units.FACTOR, above=0)] | None, Limit()] = None
+    """emergency stops between two services of the brake; compared with `friction_work`"""
+
+    @property
+    def heats(self) -> bool:
+        """Whether the file gives data of the heat or wear of the brake."""
+        return any(one is not None for one in (self.disc_mass, self.stop_heat, self.friction_work))
 
 
 class Classes(Fragment):

@@ -1,0 +1,1 @@
+"""Emergency stops: peak speed, stopping time, travel, heat and wear of the brake."""
