@@ -56,6 +56,7 @@ MOST_EVALUATIONS = {
     "crane/portal_slewing.yaml": 1_000,
     "crane_overhead_stacker.yaml": 13_000,
     "crane_rack_stacker.yaml": 120_000,
+    "crane/bridge_crane_runway.yaml": 400,
     "crane/container_gantry.yaml": 400,
     "crane/hoist_trolley.yaml": 400,
 }

@@ -38,10 +38,12 @@ def test_scenes_come_from_what_the_file_has() -> None:
         rail__step="1 mm",
         guide={"clearance": "20 mm"},
         wind={"area": "20 m^2", "pressure": "50 Pa", "pressure_storm": "500 Pa"},
+        runway={"edition": "EN 1991-3:2006"},
     )
     labels = [scene.type for scene in crane_of(data).all_scenes]
     assert labels == [
         "run", "start", "start", "brake", "brake", "hoist_while_travelling", "collision", "rail_step", "skew", "storm",
+        "runway",
     ]  # fmt: skip
 
 
@@ -129,6 +131,7 @@ def test_a_brake_that_is_not_there() -> None:
         ("storm", "wind.pressure_storm"),
         ("hoist_while_travelling", "hoist_speed"),
         ("skew", "guide"),
+        ("runway", "runway"),
     ],
 )
 def test_scenes_that_lack_something(scene: str, key: str) -> None:
@@ -197,3 +200,48 @@ def test_a_gear_that_locks_itself() -> None:
     assert problems(crane(drive__gear={"ratio": 22, "efficiency": 0.45, "reverse_efficiency": 0.2})) == []
     negative = crane(drive__gear={"ratio": 22, "efficiency": 0.45, "reverse_efficiency": -0.2})
     assert faulty(negative, "drive", "gear", "reverse_efficiency").code == "SPC110"
+
+
+RUNWAY = {"edition": "EN 1991-3:2006"}
+
+
+def test_a_runway_needs_its_edition() -> None:
+    assert "edition: EN 1991-3:2006" in faulty(crane(runway={"fatigue_class": "S3"}), "runway", "edition").hint
+    assert "EN 1991-3:2006" in faulty(crane(runway={"edition": "EN 1991-3:2026"}), "runway", "edition").hint
+
+
+def test_a_trolley_has_no_runway() -> None:
+    data = crane(travels="trolley", bridge=None, trolley={"mass": "2 t", "gauge": "2 m"}, runway=RUNWAY)
+    assert "bridge or gantry" in faulty(data, "runway").message
+
+
+@pytest.mark.parametrize("key", ["load", "trolley"])
+def test_a_runway_is_of_all_loads_and_positions(key: str) -> None:
+    scene = {"type": "runway", key: {"load": "empty", "trolley": "near"}[key]}
+    assert faulty(crane(runway=RUNWAY, scenes=[scene]), "scenes", 0, key).hint == f"delete `{key}`"
+
+
+def test_a_fatigue_factor_needs_its_class() -> None:
+    found = faulty(crane(runway=RUNWAY | {"fatigue_factor": "larger"}), "runway", "fatigue_factor")
+    assert "fatigue_class: S3" in found.hint
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("phi1", 0), ("phi2", -1), ("phi3", 2), ("phi4", 11), ("phi5", "1 m"), ("phi6", "x"), ("phi7", 0),
+     ("skew_angle", "0 rad"), ("skew_angle", "1 m"), ("speed_share", 0), ("speed_share", 2), ("K_with_phi", 3),
+     ("contact", "wood"), ("fatigue_class", "S10"), ("fatigue_factor", 2), ("suspension", "stiff")],
+)  # fmt: skip
+def test_values_of_a_runway_out_of_range(key: str, value: object) -> None:
+    faulty(crane(runway=RUNWAY | {"fatigue_class": "S3", key: value}), "runway", key)
+
+
+def test_a_least_clearance_of_the_runway() -> None:
+    """EN 1991-3 has a least clearance where EN 13001-2 takes the stated one; with the angle there is none."""
+    data = crane(guide={"clearance": "4 mm"}, runway=RUNWAY)
+
+    def told(data: dict[str, Any]) -> list[str]:
+        return [one.hint for one in problems(data) if one.path == ("guide", "clearance")]
+
+    assert any("skew_angle" in hint for hint in told(data))
+    assert told(data | {"runway": RUNWAY | {"skew_angle": "0.003 rad"}}) == []

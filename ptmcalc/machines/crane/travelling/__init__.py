@@ -14,6 +14,8 @@ from ptmcalc.machines.crane.travelling.buffers.topic import BUFFERS
 from ptmcalc.machines.crane.travelling.figures import FIGURES
 from ptmcalc.machines.crane.travelling.rail.topic import RAIL
 from ptmcalc.machines.crane.travelling.relations import RELATIONS
+from ptmcalc.machines.crane.travelling.runway.table import tables
+from ptmcalc.machines.crane.travelling.runway.topic import RUNWAY
 from ptmcalc.machines.crane.travelling.skewing.topic import SKEW
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics.factors import CREEPING
@@ -58,7 +60,8 @@ def _plays(spec: Travelling) -> Iterator[Finding]:
     if guide is None:
         return
     least = skew.LEAST_PLAY[guide.type]
-    used = skew.skew_play(guide.clearance, least, guide.edition)
+    for_runway = spec.runway is not None and spec.runway.skew_angle is None
+    used = skew.skew_play(guide.clearance, least, skew.EN_1991_3 if for_runway else guide.edition)
     if used > guide.clearance:
         yield Finding(
             "SPC201",
@@ -66,11 +69,12 @@ def _plays(spec: Travelling) -> Iterator[Finding]:
             f" minimum of EN 1991-3 with {guide.type}:"
             f" the skewing angle is computed with {units.show(least, units.LENGTH)}",
             ("guide", "clearance"),
-            f"write `clearance: {units.show(least / 0.75, units.LENGTH)}` or more, or another `edition`",
+            f"write `clearance: {units.show(least / 0.75, units.LENGTH)}` or more, or "
+            + ("the `skew_angle` of the runway" if for_runway else "another `edition`"),
         )
 
 
-TOPICS = (STATICS, TRAVEL, BUFFERS, RAIL, SKEW, STORM_PARKED)
+TOPICS = (STATICS, TRAVEL, BUFFERS, RAIL, SKEW, STORM_PARKED, RUNWAY)
 
 TRAVELLING = MachineKind(
     name="crane",
@@ -85,5 +89,6 @@ TRAVELLING = MachineKind(
     uses=USES,
     inspect=inspect,
     relations=RELATIONS,
+    tables=tables,
     **of_topics(TOPICS),
 )

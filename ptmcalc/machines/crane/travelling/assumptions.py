@@ -7,7 +7,7 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import skew
-from ptmcalc.machines.crane.travelling.scenes import Skew
+from ptmcalc.machines.crane.travelling.scenes import Runway, Skew
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
 _HEAD = 0.05
@@ -15,7 +15,7 @@ _HEAD = 0.05
 _WIDE = 1.5
 """Wear that is reckoned with at most, over that of the standards."""
 _STEEL = 7850.0  # kg/m^3
-_OF_SKEWING = Use(frozenset({Skew}), frozenset({"skew_force"}))
+_OF_SKEWING = Use(frozenset({Skew, Runway}), frozenset({"skew_force", "runway_skew_angle"}))
 USES: Mapping[str, Use] = {"guide.tolerance": _OF_SKEWING, "guide.wear": _OF_SKEWING}
 
 
@@ -119,7 +119,8 @@ def _of_the_rails(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             lambda spec: Interval(1.2, 1.8),
             "flanged cylindrical wheels on rolling bearings 1.5, conical wheels 1.2; plain bearings up to 2.5",
         )
-    if any(scene.type == "rail_step" for scene in spec.all_scenes):
+    of_runway = spec.runway is not None and spec.runway.phi4 is None and (spec.rail.step > 0 or spec.rail.gap > 0)
+    if of_runway or any(scene.type == "rail_step" for scene in spec.all_scenes):
         yield Assumption(
             ("rail", "frequency"),
             units.FREQUENCY,

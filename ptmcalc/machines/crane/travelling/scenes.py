@@ -110,8 +110,18 @@ class Storm(TravelScene):
     """load on the hook: none out of service"""
 
 
+class Runway(TravelScene):
+    """Actions on the runway: the loaded and the unloaded crane, in the worst trolley positions."""
+
+    type: Literal["runway"] = "runway"
+
+    def default_name(self) -> str:
+        return self.type
+
+
 AnyScene = Annotated[
-    Run | Start | Brake | HoistWhileTravelling | Collision | RailStep | Skew | Storm, Field(discriminator="type")
+    Run | Start | Brake | HoistWhileTravelling | Collision | RailStep | Skew | Storm | Runway,
+    Field(discriminator="type"),
 ]
 
 MOVING = (Start, Brake, HoistWhileTravelling)

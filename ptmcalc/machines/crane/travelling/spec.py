@@ -9,6 +9,7 @@ from ptmcalc.base import units
 from ptmcalc.components.buffer import Buffer
 from ptmcalc.components.pendulum import Suspension
 from ptmcalc.components.travel_drive import TravelDrive
+from ptmcalc.machines.crane.travelling.keys.actions import Actions
 from ptmcalc.machines.crane.travelling.keys.duty import Classes, Declared, Duty
 from ptmcalc.machines.crane.travelling.keys.runway import Guide, Rail, Rolling, Wheels
 from ptmcalc.machines.crane.travelling.scenes import (
@@ -18,6 +19,7 @@ from ptmcalc.machines.crane.travelling.scenes import (
     HoistWhileTravelling,
     RailStep,
     Run,
+    Runway,
     Skew,
     Start,
     Storm,
@@ -169,6 +171,8 @@ class Travelling(MachineSpec):
     """runway rail"""
     guide: Guide | None = None
     """lateral guides; needed for a `skew`"""
+    runway: Actions | None = None
+    """actions on the runway beams; needed for a `runway`"""
     wind: Wind | None = None
     """wind, for outdoor cranes"""
     speed: PositiveSpeed
@@ -192,7 +196,7 @@ class Travelling(MachineSpec):
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
     """load cases; default: steady travel, a start and a stop, loaded and empty, and scenes for which the
     file gives data: hoisting while travelling, a collision with the buffers, a step of the rail, skewing,
-    a storm"""
+    a storm, actions on the runway"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -217,6 +221,8 @@ class Travelling(MachineSpec):
             scenes.append(Skew())
         if self.wind is not None and self.wind.pressure_storm is not None:
             scenes.append(Storm())
+        if self.runway is not None:
+            scenes.append(Runway())
         return scenes
 
     @property
@@ -239,6 +245,9 @@ def _parts(given: Given) -> Iterator[Conflict]:
     if what == "trolley":
         if "bridge" in given:
             yield Conflict(("bridge",), "the trolley travels and the bridge is stationary", "delete `bridge`")
+        if "runway" in given:
+            reason = "the actions on a runway are those of a bridge or gantry"
+            yield Conflict(("runway",), reason, "delete `runway`, or describe the bridge and write `travels: bridge`")
         if trolley is not None and trolley.raw:
             if "gauge" not in trolley:
                 yield Conflict(("trolley",), "a travelling trolley needs its `gauge`", "add `gauge: 2 m`")
@@ -292,6 +301,7 @@ _NEEDED = {
     "storm": (("wind", "pressure_storm"), "wind: {area: 60 m^2, pressure: 150 Pa, pressure_storm: 800 Pa}"),
     "hoist_while_travelling": (("suspension", "hoist_speed"), "hoist_speed: 0.1 m/s"),
     "skew": (("guide",), "guide: {type: flanges, clearance: 20 mm}"),
+    "runway": (("runway",), "runway: {edition: EN 1991-3:2006}"),
 }
 
 
@@ -311,6 +321,10 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
                 yield Conflict(("scenes", index), f"a `{what}` needs `{'.'.join(path)}`", f"add `{example}`")
         if what == "skew" and given.word("travels") == "trolley":
             yield Conflict(("scenes", index), "skewing of a trolley is not computed", "delete this scene")
+        for key in ("load", "trolley"):
+            if what == "runway" and key in scene:
+                reason = "the actions are those of the loaded and the unloaded crane in the worst trolley positions"
+                yield Conflict(("scenes", index, what, key), reason, f"delete `{key}`")
         if what == "rail_step" and rail is not None and not rail.number("step") and not rail.number("gap"):
             yield Conflict(("scenes", index), "the rail has neither `step` nor `gap`", "add `rail: {step: 1 mm}`")
         by_brake = what == "brake" and (scene.word("by") == "brake")

@@ -6,7 +6,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import skew
-from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling import guides, model
 from ptmcalc.machines.crane.travelling.keys.runway import Guide
 from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Skew
@@ -27,9 +27,10 @@ def run(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> R
     """
     given = spec.guide
     assert given is not None
-    base = given.base if given.base is not None else spec.wheels.base
     least = skew.LEAST_PLAY[given.type]
-    angle = skew.skew_angle(given.clearance, filled(given.wear), base, least, given.tolerance, given.edition)
+    angle = skew.skew_angle(
+        given.clearance, filled(given.wear), guides.guides_apart(spec), least, given.tolerance, given.edition
+    )
     friction = float(skew.skew_friction(min(angle, skew.LARGEST_ANGLE), given.adhesion))
     found = [
         _guide_force(spec, scene, given, angle, hook, guiding)
@@ -60,23 +61,13 @@ def _guide_force(
     centre = sum(mass * across for mass, across in bodies) / whole / spec.gauge
     if guiding == "B":
         centre = 1 - centre
-    wheel_base = spec.wheels.base
-    front = max((given.base or wheel_base) - wheel_base, 0.0) / 2 if given.type == "rollers" else 0.0
-    distances = np.array([front, front + wheel_base])
-    coupled = np.array([_turn_alike(spec, end) for end in ("1", "2")])
     weights = np.full(2, whole * spec.gravity / 2)
     limited = min(angle, skew.LARGEST_ANGLE)
     friction = float(skew.skew_friction(limited, given.adhesion))
-    others = (distances, coupled, weights, centre, spec.gauge, given.rail_two)
+    others = (guides.distances(spec), guides.coupled(spec), weights, centre, spec.gauge, given.rail_two)
     standard = float(skew.skew_forces(friction, *others)[:2].sum())
     each = float(skew.skew_equilibrium(given.adhesion, limited, *others)[:2].sum())
     return (standard, hook, guiding), (each, hook, guiding)
-
-
-def _turn_alike(spec: Travelling, end: str) -> float:
-    """Whether the wheels of the front or rear pair are on one shaft."""
-    both = {f"A{end}", f"B{end}"} <= set(spec.wheels.driven)
-    return 1.0 if both and spec.drive.wheels == "coupled" else 0.0
 
 
 SKEWING: Solver[Travelling, Skew] = Solver(
