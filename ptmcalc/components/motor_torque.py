@@ -76,3 +76,55 @@ def overhauling_reserve(curve: AnyMotor, count: int, torque: float) -> float:
     **Source** balance of torques on the motor shaft.
     """
     return count * overhauled_torque(curve) / torque if torque > 0 else math.inf
+
+
+_HALVINGS = 200
+"""Halvings of the interval of a speed. A numerical choice: more than the resolution of the floating point has."""
+
+
+def carrying_speed(curve: AnyMotor, torque: float) -> float | None:
+    """Speed at which a motor steadily carries a torque, negative where a load drives it, once its start is over
+    [rad/s].
+
+        M(w) = M_o   on the branch through the no-load speed
+
+    Args:
+        curve: of one motor.
+        torque: M_o, of one motor [N*m].
+
+    Returns:
+        w; infinite where the load overcomes the braking torque, 0 where the motor stalls, None for a converter, which
+        holds its own speed, and for a motor without a no-load speed.
+
+    **Range** steady motion on the last stage of the curve.
+    **Error** rounding, by halving the interval.
+    **Source** balance of torques on the motor shaft; Kloss for slip below 0 where the curve is one of an induction
+    motor.
+    """
+    idle = curve.no_load_speed
+    if isinstance(curve, ConverterMotor) or idle is None:
+        return None
+    last = curve.stages[-1]
+    low, high = _branch(curve, idle)
+    low, high = (low, idle) if torque >= 0 else (idle, high)
+    while last.extends and float(last.torque(high)) > torque:
+        high *= 2
+    if float(last.torque(high)) > torque:
+        return math.inf
+    if float(last.torque(low)) < torque:
+        return 0.0
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if float(last.torque(middle)) > torque else (low, middle)
+    return (low + high) / 2
+
+
+def _branch(curve: AnyMotor, idle: float) -> tuple[float, float]:
+    """Speeds of the largest and the smallest torque on the branch through the no-load speed [rad/s]."""
+    last = curve.stages[-1]
+    if isinstance(curve, InductionBase):
+        return (1 - curve.breakdown_slip) * idle, (1 + curve.breakdown_slip) * idle
+    assert last.pieces is not None
+    below = [knot for knot in last.pieces if knot[0] <= idle] or [(0.0, 0.0)]
+    above = [knot for knot in last.pieces if knot[0] >= idle] or [(idle, 0.0)]
+    return max(below, key=lambda knot: knot[1])[0], min(above, key=lambda knot: knot[1])[0]

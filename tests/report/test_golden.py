@@ -26,9 +26,9 @@ GOLDEN = ROOT / "tests" / "golden"
 MACHINES = {"conveyor": "specs/conveyor.yaml", "slipping": "tests/cli/specs/slipping.yaml"}
 SIMULATED = {
     "crane_slewing": "specs/crane_slewing.yaml",
+    "crane_runway": "specs/crane/bridge_crane_runway.yaml",
     "two_loading_points": "specs/conveyor/two_loading_points.yaml",
 }
-SIMULATED = {"crane_slewing": "specs/crane_slewing.yaml", "crane_runway": "specs/crane/bridge_crane_runway.yaml"}
 """Their verdicts alone are stored: steps of a simulation, and what its energy balance leaves over, are rounding's."""
 IN_CI = (Format.JUNIT, Format.SARIF, Format.GITHUB, Format.MARKDOWN, Format.SUMMARY)
 """Formats of continuous integration and of many files, stored of the machine that fails."""

@@ -230,6 +230,7 @@ class Stops(Statics):
         one = found["brake_heat"] / number(brake["disc_mass"]) / number(brake["specific_heat"])
         kept = math.exp(-3600 / brake["stops_per_hour"] / number(brake["cooling_time"]))
         return found | {
+            "emergency_speed_ratio": found["emergency_speed_max"] / number(self.data["motor"]["no_load_speed"]),
             "brake_temperature_one": one,
             "brake_temperature_max": one / (1 - kept),
             "brake_stops": number(brake["friction_work"]) / found["brake_heat"],

@@ -99,6 +99,9 @@ class HoistChecks(CheckSettings):
     """maximum gear torque / gear torque of steady motion"""
     brake_reserve: Annotated[PositiveRatio | None, Limit()] = None
     """minimum brake torque / torque of the lowered load; default: by the group"""
+    overspeed: Annotated[PositiveRatio, Limit()] = 1.2
+    """maximum motor speed / rated speed, lowering on the curve or in an emergency stop (IEC 60034-1: 1.2 for 2 min, to
+    be compared with the standard and the data sheet)"""
     winding_stress_ratio: Annotated[PositiveRatio, Limit()] = 0.1
     """maximum dynamic / mean rope stress of a layer change"""
     crossover_detuning: Annotated[PositiveRatio, Limit()] = 0.2
@@ -178,7 +181,7 @@ class EmergencyStop(HoistScene):
         None
     )
     """of the motor shaft when the power is lost, such as the trip speed of an overspeed switch; default: that of
-    `speed`"""
+    the motor on its `curve`, without one that of `speed`"""
 
 
 class Release(HoistScene, TransientScene):

@@ -17,12 +17,14 @@ from ptmcalc.machines.hoist.braking.loads import (
     REPEATED,
     RISE,
     SPEED,
+    SPEED_RATIO,
     STOPS,
     TIME,
     TRAVEL,
 )
 from ptmcalc.machines.hoist.braking.motion import Brake, Train
 from ptmcalc.machines.hoist.drive import torques
+from ptmcalc.machines.hoist.drive.solver import overspeed_note
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist
 
@@ -66,6 +68,11 @@ def initial_speed(spec: Hoist, scene: EmergencyStop) -> float:
     """Of the motor shaft when the power is lost [rad/s]."""
     if scene.motor_speed is not None:
         return scene.motor_speed
+    if scene.speed == "main":
+        mass, lifts = model.hook_mass(spec, scene), scene.direction == "up"
+        speed = torques.curve_speed(spec, mass, scene.hook_height, lifts)
+        if speed and math.isfinite(speed):
+            return speed
     return model.drum_speed(spec, scene.speed) * torques.gearbox_of(spec).ratio
 
 
@@ -105,6 +112,10 @@ def run(spec: Hoist, scene: EmergencyStop, carried: frozenset[str], level: int) 
     stops = motions(spec, scene)
     shaft = {name: _largest([one[name] for one in stops]) for name in stops[0]}
     found = {name: Found(one) for name, one in shaft.items()}
+    found[SPEED] = Found(shaft[SPEED], note=overspeed_note(spec))
+    field = torques.field_speed(spec.motor) if spec.motor is not None else None
+    if field is not None:
+        found[SPEED_RATIO] = Found(_scaled(shaft[SPEED], 1 / field))
     return Result(found | _of_the_disc(spec, shaft[HEAT]), work=1)
 
 

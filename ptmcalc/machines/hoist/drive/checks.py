@@ -1,9 +1,13 @@
 """The checks of a hoist's drive in even motion: what lifts, what heats, what holds."""
 
+from collections.abc import Iterable
+from dataclasses import replace
+
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import braking_number_at, number_at
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, only
+from ptmcalc.components.motor_torque import carrying_speed
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.contract.limits import fixed, key
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist.drive import torques
@@ -287,4 +291,46 @@ OVERHAULED: OneCheck = only(_lowered)(
     )
 )
 
-CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (WEAK, EXCESS, HEATING, STARTS, BRAKE, START_HEAT, OVERHAULED)
+
+def _overspeed_limit(spec: Hoist, scene: HoistScene) -> Estimate:
+    """Permissible motor speed: the ratio of the file, 1.2 by default, times the rated speed of the motor.
+
+    **Range** motors of IEC 60034-1; the rated speed of the motor, of its curve, or that of the main speed.
+    **Error** none: a chosen limit, to be compared with the standard and the data sheet.
+    **Source** IEC 60034-1, overspeed of 1.2 times the highest rated speed for 2 min.
+    """
+    return Estimate.exact(spec.checks.overspeed * torques.rated_speed(spec))
+
+
+def _where_fast(spec: Hoist, scene: HoistScene) -> Iterable[AnyCheck]:
+    """In a run on the curve, which lowers; in every emergency stop."""
+    if isinstance(scene, EmergencyStop):
+        return (replace(OVERSPEED, each=None, loads=("emergency_speed_max",)),)
+    curve = spec.motor.curve if spec.motor is not None and spec.gearbox is not None else None
+    known = curve is not None and carrying_speed(curve, 0.0) is not None
+    return (replace(OVERSPEED, each=None),) if known else ()
+
+
+OVERSPEED: Check[Hoist, HoistScene] = Check(
+    code="HST132",
+    hazard=True,
+    title="motor overspeed",
+    question="Does the motor stay below its maximum speed while the load drives it?",
+    failure="load drives the motor above its maximum speed",
+    limit_state=LimitState("load drives the motor without limit"),
+    scenes=frozenset({Run, EmergencyStop}),
+    loads=("lowering_speed",),
+    sense=Sense.AT_MOST,
+    limit=_overspeed_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("brake", "delay") if isinstance(scene, EmergencyStop) else ("motor", "curve"),
+    repair=no_repair,
+    each=_where_fast,
+    what="The motor speed is at most 1.2 times the rated speed, or the ratio of the file. It applies to steady lowering"
+    " on the motor curve, and to an emergency stop until the brake acts.",
+    why="Centrifugal forces grow with the square of the speed. Rotor windings, fans and couplings fail.",
+    formula="w_max <= 1.2 w_n",
+    source="IEC 60034-1, to be compared with the standard; motion of the rigid drive",
+)
+
+CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (WEAK, EXCESS, HEATING, STARTS, BRAKE, START_HEAT, OVERHAULED, OVERSPEED)

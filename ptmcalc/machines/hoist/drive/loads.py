@@ -10,6 +10,8 @@ OF_THE_DRIVE = (
     LoadInfo("power_hoisting", "motor power, steady hoisting", units.POWER, governing=True),
     LoadInfo("starting_reserve", "starting torque reserve", units.RATIO, governing=True),
     LoadInfo("overhauling_reserve", "motor braking torque reserve", units.RATIO),
+    LoadInfo("lowering_speed", "motor speed, steady lowering on its curve", units.ANGULAR_SPEED),
+    LoadInfo("lowering_speed_ratio", "motor speed relative to no load, steady lowering", units.RATIO, headline=False),
     LoadInfo("start_time", "hoisting start time, rigid model", units.TIME),
     LoadInfo("torque_motor_rms", "motor torque, rms", units.TORQUE, governing=True),
     LoadInfo("heating_utilisation", "thermal utilisation (rms torque)", units.SHARE, governing=True),

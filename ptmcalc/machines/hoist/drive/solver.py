@@ -37,7 +37,27 @@ def of_the_drive(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
         if spec.motor is not None:
             loads |= _of_the_motor(spec, spec.motor, mass, height)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    found |= _of_lowering(spec, mass, height)
     return found | _of_the_start(spec, scene) | _of_the_brake(spec, scene)
+
+
+def overspeed_note(spec: Hoist) -> str:
+    """Where the limit of the motor speed comes from, if the file does not give it."""
+    given = "overspeed" in spec.checks.model_fields_set
+    return "" if given else "limit 1.2 times the rated speed (IEC 60034-1), to be compared with the standard"
+
+
+def _of_lowering(spec: Hoist, mass: float, height: float | None) -> dict[str, Found]:
+    """Speed at which the motors hold the lowered load on their curve."""
+    speed = torques.curve_speed(spec, mass, height, up=False) if spec.gearbox is not None else None
+    field = torques.field_speed(spec.motor) if spec.motor is not None else None
+    if speed is None or field is None:
+        return {}
+    note = "the load overcomes the braking torque and drives the motor without limit" if math.isinf(speed) else ""
+    return {
+        "lowering_speed": Found(Estimate.exact(speed), note=note or overspeed_note(spec)),
+        "lowering_speed_ratio": Found(Estimate.exact(speed / field)),
+    }
 
 
 def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.components.duty_motor import DutyMotor
-from ptmcalc.components.motor_torque import overhauling_reserve
+from ptmcalc.components.motor_torque import carrying_speed, overhauling_reserve
 from ptmcalc.laws import brake, duty, hoisting, inertia, start_profile
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.keys.drive import Gearbox
@@ -83,6 +83,26 @@ def braking_reserve(spec: Hoist, motor: DutyMotor, mass: float, hook_height: flo
     if motor.curve is None:
         return None
     return overhauling_reserve(motor.curve, motor.count, torque_down(spec, mass, hook_height))
+
+
+def curve_speed(spec: Hoist, mass: float, hook_height: float | None, up: bool) -> float | None:
+    """Speed of the motors on their curve while they hoist or lower a mass steadily; None where no curve gives it.
+
+    M(w) = M_L/(u eta) up,   M(w) = -M_L eta_r/u down [rad/s]
+    """
+    motor = spec.motor
+    if motor is None or motor.curve is None:
+        return None
+    torque = torque_up(spec, mass, hook_height) if up else -torque_down(spec, mass, hook_height)
+    return carrying_speed(motor.curve, torque / motor.count)
+
+
+def rated_speed(spec: Hoist) -> float:
+    """Rated speed of the motor, of its curve where the file gives it there; that of the main speed without either."""
+    motor = spec.motor
+    own = motor.speed if motor is not None else None
+    of_curve = getattr(motor.curve, "speed", None) if motor is not None else None
+    return own or of_curve or motor_speed(spec)
 
 
 def start_time(spec: Hoist, motor: DutyMotor, mass: float, hook_height: float | None, up: bool) -> float:
