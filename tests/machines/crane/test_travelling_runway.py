@@ -226,5 +226,25 @@ def test_a_cantilever_lifts_the_other_rail(nearest: str, verdict: Verdict) -> No
     assert check_of(scene, "CRN177").verdict is verdict
 
 
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({}, "nearest"),
+        ({"trolley__nearest": "1 m", "trolley__farthest": "15 m", "bridge__cantilever_b": "6 m"}, "farthest"),
+    ],
+)
+def test_the_end_that_lifts_a_wheel_is_blamed(changes: dict[str, Any], key: str) -> None:
+    judged = check_of(scene_report(changed(by_hand(3), **changes)), "CRN177")
+    assert judged.verdict is Verdict.FAIL
+    assert judged.blame.path == ("trolley", key)
+
+
+@pytest.mark.parametrize(("wear", "key"), [("12 mm", "clearance"), ("70 mm", "wear")])
+def test_what_lets_the_crane_skew_is_blamed(wear: str, key: str) -> None:
+    judged = check_of(scene_report(changed(by_hand(3), guide__wear=wear)), "CRN176")
+    assert judged.verdict is Verdict.FAIL
+    assert judged.blame.path == ("guide", key)
+
+
 def test_neither_a_guide_nor_an_angle() -> None:
     assert check_of(scene_report(example(runway__skew_angle=None)), "CRN176").verdict is Verdict.NOT_CHECKED

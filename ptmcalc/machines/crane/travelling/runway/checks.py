@@ -1,7 +1,7 @@
 """Checks of the actions on the runway."""
 
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, no_needs
+from ptmcalc.contract.check import Check, LimitState, Sense, no_needs
 from ptmcalc.contract.limits import fixed
 from ptmcalc.laws.skew import LARGEST_ANGLE
 from ptmcalc.machines.crane.travelling.judging import OneCheck
@@ -10,8 +10,18 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def _angle_key(spec: Travelling) -> KeyPath:
-    given = spec.runway
-    return ("runway", "skew_angle") if given is not None and given.skew_angle is not None else ("guide", "clearance")
+    given, guide = spec.runway, spec.guide
+    if given is not None and given.skew_angle is not None:
+        return ("runway", "skew_angle")
+    worn = guide is not None and guide.wear is not None and guide.wear > guide.clearance
+    return ("guide", "wear" if worn else "clearance")
+
+
+def _end_key(spec: Travelling) -> KeyPath:
+    """The end of the trolley that is farther towards, or beyond, its rail."""
+    near, far = spec.trolley.nearest, spec.trolley.farthest
+    outer = near is not None and far is not None and spec.gauge - far < near
+    return ("trolley", "farthest" if outer else "nearest")
 
 
 def _angle_needs(spec: Travelling, scene: TravelScene) -> tuple[KeyPath, ...]:
@@ -65,8 +75,8 @@ UPLIFT: OneCheck = Check(
         source="equilibrium",
     ),
     needs=no_needs,
-    blame=blames("trolley", "nearest"),
-    repair=at("trolley", "nearest"),
+    blame=lambda spec, scene, loads: _end_key(spec),
+    repair=lambda spec, scene: _end_key(spec),
     what="The smallest wheel load of all groups of loads, loaded and unloaded, with their dynamic factors, is at least"
     " zero.",
     why="The formulas of the standard are not valid for a wheel that lifts off. The crane may tip.",
