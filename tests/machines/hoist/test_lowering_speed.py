@@ -124,14 +124,14 @@ def test_tables_and_lines_are_followed() -> None:
 )
 def test_the_permissible_speed_turns_the_verdict(overspeed: float, run: str, stop: str) -> None:
     report = report_of(changed(HOIST, checks={"overspeed": overspeed}))
-    for name, verdict in (("run_loaded", run), ("emergency_stop_down_loaded", stop)):
-        assert check_of(scene_of(report, name), "HST132").verdict is Verdict(verdict)
+    for name, code, verdict in (("run_loaded", "HST132", run), ("emergency_stop_down_loaded", "HST136", stop)):
+        assert check_of(scene_of(report, name), code).verdict is Verdict(verdict)
 
 
 def test_the_delay_of_the_brake_turns_the_verdict() -> None:
     for delay, verdict in (("0.1 s", Verdict.PASS), ("0.25 s", Verdict.FAIL)):
         scene = scene_of(report_of(changed(HOIST, brake__delay=delay)), "emergency_stop_down_loaded")
-        assert check_of(scene, "HST132").verdict is verdict
+        assert check_of(scene, "HST136").verdict is verdict
 
 
 def test_a_load_that_the_motor_does_not_hold_has_no_speed() -> None:

@@ -303,9 +303,7 @@ def _overspeed_limit(spec: Hoist, scene: HoistScene) -> Estimate:
 
 
 def _where_fast(spec: Hoist, scene: HoistScene) -> Iterable[AnyCheck]:
-    """In a run on the curve, which lowers; in every emergency stop."""
-    if isinstance(scene, EmergencyStop):
-        return (replace(OVERSPEED, each=None, loads=("emergency_speed_max",)),)
+    """In a run on the curve, which lowers."""
     curve = spec.motor.curve if spec.motor is not None and spec.gearbox is not None else None
     known = curve is not None and carrying_speed(curve, 0.0) is not None
     return (replace(OVERSPEED, each=None),) if known else ()
@@ -318,19 +316,42 @@ OVERSPEED: Check[Hoist, HoistScene] = Check(
     question="Does the motor stay below its maximum speed while the load drives it?",
     failure="load drives the motor above its maximum speed",
     limit_state=LimitState("load drives the motor without limit"),
-    scenes=frozenset({Run, EmergencyStop}),
+    scenes=frozenset({Run}),
     loads=("lowering_speed",),
     sense=Sense.AT_MOST,
     limit=_overspeed_limit,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("brake", "delay") if isinstance(scene, EmergencyStop) else ("motor", "curve"),
+    blame=blames("motor", "curve"),
     repair=no_repair,
     each=_where_fast,
-    what="The motor speed is at most 1.2 times the rated speed, or the ratio of the file. It applies to steady lowering"
-    " on the motor curve, and to an emergency stop until the brake acts.",
+    what="The motor speed of steady lowering on the motor curve is at most 1.2 times the rated speed, or the ratio of"
+    " the file.",
     why="Centrifugal forces grow with the square of the speed. Rotor windings, fans and couplings fail.",
     formula="w_max <= 1.2 w_n",
     source="IEC 60034-1, to be compared with the standard; motion of the rigid drive",
 )
 
-CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (WEAK, EXCESS, HEATING, STARTS, BRAKE, START_HEAT, OVERHAULED, OVERSPEED)
+EMERGENCY_OVERSPEED: Check[Hoist, HoistScene] = replace(
+    OVERSPEED,
+    code="HST136",
+    title="motor overspeed, emergency stop",
+    question="Does the brake act before the load drives the motor above its maximum speed?",
+    scenes=frozenset({EmergencyStop}),
+    loads=("emergency_speed_max",),
+    blame=blames("brake", "delay"),
+    each=None,
+    what="The motor speed of an emergency stop, until the brake acts, is at most 1.2 times the rated speed, or the"
+    " ratio of the file.",
+)
+
+CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (
+    WEAK,
+    EXCESS,
+    HEATING,
+    STARTS,
+    BRAKE,
+    START_HEAT,
+    OVERHAULED,
+    OVERSPEED,
+    EMERGENCY_OVERSPEED,
+)
