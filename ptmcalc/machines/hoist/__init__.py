@@ -11,6 +11,7 @@ from ptmcalc.laws import lift_off_standard
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.assumptions import assumptions
 from ptmcalc.machines.hoist.braking.topic import BRAKING
+from ptmcalc.machines.hoist.drive.cycle import CYCLE
 from ptmcalc.machines.hoist.drive.topic import DRIVE
 from ptmcalc.machines.hoist.figures import FIGURES
 from ptmcalc.machines.hoist.model import drum_speed
@@ -85,7 +86,7 @@ def _editions_that_differ(spec: Hoist) -> Iterator[Finding]:
         )
 
 
-TOPICS = (STATICS, DRIVE, MOTION, WINDING, BRAKING)
+TOPICS = (STATICS, DRIVE, MOTION, WINDING, BRAKING, CYCLE)
 
 KIND = MachineKind(
     name="hoist",

@@ -1,6 +1,7 @@
 """Emergency stop of the rigid drive: the worst height of the hook, where the scene gives none."""
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -8,7 +9,6 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.braking.bars import with_bars
 from ptmcalc.machines.hoist.braking.loads import (
     DESCENT,
     HEAT,
@@ -22,11 +22,13 @@ from ptmcalc.machines.hoist.braking.loads import (
     TIME,
     TRAVEL,
 )
-from ptmcalc.machines.hoist.braking.motion import Brake, Train
 from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.drive.solver import overspeed_note
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist
+
+if TYPE_CHECKING:
+    from ptmcalc.machines.hoist.braking.motion import Train
 
 _HEIGHTS = 12
 """Heights of the hook at which a stop is evaluated where the scene gives none: the lowest, and one above the begin of
@@ -35,10 +37,12 @@ _ONTO = 1 + 1e-9
 """Height relative to that at which a layer begins [1], as in `drive.solver`: at 1 the layer below is evaluated."""
 
 
-def train_at(spec: Hoist, mass: float, height: float) -> tuple[Train, float]:
+def train_at(spec: Hoist, mass: float, height: float) -> "tuple[Train, float]":
     """The drive with a mass on the hook at a height, and the travel of the hook per motor angle [m/rad]."""
     gear = torques.gearbox_of(spec)
     arm = model.wound(spec, height).radius / model.falls_of_a_rope(spec)
+    from ptmcalc.machines.hoist.braking.motion import Train  # for the scenes that call for one
+
     up, down = (model.drum_torque(spec, mass, height, hauling=way) for way in (True, False))
     train = Train(
         model.motor_side_inertia(spec),
@@ -78,6 +82,9 @@ def initial_speed(spec: Hoist, scene: EmergencyStop) -> float:
 
 def motions(spec: Hoist, scene: EmergencyStop) -> list[dict[str, Estimate]]:
     """Loads of the stop at each height."""
+    from ptmcalc.machines.hoist.braking.bars import with_bars  # for the scenes that call for one
+    from ptmcalc.machines.hoist.braking.motion import Brake
+
     given = spec.brake
     assert given is not None, "a scene that brakes has a brake"
     on_drum = given.shaft != torques.MOTOR_SHAFT

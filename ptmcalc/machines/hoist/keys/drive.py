@@ -13,12 +13,14 @@ from ptmcalc.spec.fields import (
     Measure,
     PositiveEnergy,
     PositiveMass,
+    PositivePower,
     PositiveShare,
     PositiveTime,
     PositiveTorque,
     ReverseEfficiency,
     RunningTime,
     Share,
+    SignedTorque,
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
@@ -123,6 +125,45 @@ class SpectrumPoint(Fragment):
     """relative to the rated load"""
 
 
+class CyclePart(Fragment):
+    """A part of a cycle of given motor torques."""
+
+    torque: SignedTorque
+    """of one motor, at the begin of the part; 0 at rest"""
+    to: Annotated[SignedTorque | None, Absent("the torque is constant")] = None
+    """torque at the end of the part, on a straight line; constant when left out"""
+    time: PositiveTime
+    """duration"""
+    phase: Literal["running", "starting", "rest"] = "running"
+    """running at speed; starting or stopping, with half of the loss of cooling; at rest"""
+
+    @property
+    def end(self) -> float:
+        """Torque at the end [N*m]."""
+        return self.torque if self.to is None else self.to
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A motor at rest is switched off."""
+        if given.word("phase") == "rest" and (given.number("torque") or given.number("to")):
+            yield Conflict(
+                ("phase",), "the brake holds the load at rest", "write `torque: 0 N*m`, or `phase: starting`"
+            )
+
+
+class Losses(Fragment):
+    """Losses of one motor at its continuous rating."""
+
+    constant: PositivePower
+    """iron and friction losses, independent of the torque"""
+    copper: PositivePower
+    """losses in the windings at the rated torque"""
+    temperature_rise: Annotated[Annotated[float, Measure(units.TEMPERATURE_DIFFERENCE, above=0)] | None, Limit()] = None
+    """rated temperature rise of the winding; needed to check the peak of the cycle"""
+    time_constant: Annotated[PositiveTime | None, Checked()] = None
+    """time constant of the heating of the motor at speed, 20 to 60 min; needed to check the peak of the cycle"""
+
+
 class Duty(Fragment):
     """Duty of the hoist."""
 
@@ -134,6 +175,10 @@ class Duty(Fragment):
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """load spectrum of the service life; default: always the rated load"""
+    cycle: Annotated[tuple[CyclePart, ...], Field(min_length=1, max_length=200)] | None = None
+    """cycle of given motor torques, to check the heating by it"""
+    losses: Losses | None = None
+    """losses of a motor at its continuous rating, to check the heating by `cycle` with them"""
     hours: Annotated[RunningTime | None, Limit()] = None
     """operating time in the service life; with the spectrum it determines the mechanism group"""
     cycles: Annotated[Annotated[float, Measure(units.FACTOR, above=0)] | None, Limit()] = None
