@@ -180,7 +180,7 @@ def place(span: Span | None) -> str:
 
 
 def head(report: FileReport) -> list[tuple[str, str]]:
-    """What the file says of its project, with labels."""
+    """Project number, revision, author and checker of a file, with labels."""
     labels = {"number": "project", "checked_by": "checked by"}
     return [(labels.get(key, key), text) for key, text in report.project]
 

@@ -26,16 +26,16 @@ _Line = Annotated[str, Field(min_length=1, max_length=100)]
 
 
 class Project(Fragment):
-    """What the head of a report says of the design; every key is optional."""
+    """Head of the report of a design; each key is optional."""
 
     number: _Line | None = Field(default=None, examples=["P-2031"])
     """number of the project or drawing"""
     revision: _Line | None = Field(default=None, examples=["B"])
     """revision of the design"""
     author: _Line | None = Field(default=None, examples=["A. Designer"])
-    """who made the design"""
+    """designer"""
     checked_by: _Line | None = Field(default=None, examples=["C. Checker"])
-    """who checked it"""
+    """checker of the design"""
 
     @property
     def given(self) -> tuple[tuple[str, str], ...]:

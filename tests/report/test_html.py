@@ -210,7 +210,7 @@ def test_the_worst_check_stands_first_with_its_line_and_its_repair() -> None:
     assert worst.repair is not None
     (box,) = (one for one in elements(text, "section") if one.attributes["id"] == "verdict")
     assert f"Worst: {worst.code}" in box.words
-    assert "Yes" in [one.words for one in box.all("b")][-1]
+    assert [one.words for one in box.all("b")][-1] == worst.meaning
     assert f"brakes.band.torque = {words.number(worst.repair.value, worst.repair.quantity)}" in box.words
     (marked,) = (one for one in box.all("li") if "marked" in one.attributes.get("class", ""))
     assert marked.attributes["data-line"] == "6" == str(worst.blame.span.line)
