@@ -1,4 +1,4 @@
-"""What a long computation does at the moment, for those who want to show it."""
+"""Progress of a long computation: the current step, for a display."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -7,14 +7,14 @@ _followers: list[Callable[[str], None]] = []
 
 
 def step(text: str) -> None:
-    """Say what is computed now."""
+    """Report the current step of the computation."""
     for follower in _followers:
         follower(text)
 
 
 @contextmanager
 def followed(follower: Callable[[str], None]) -> Iterator[None]:
-    """Have every step said to a function."""
+    """Call a function with the text of each step."""
     _followers.append(follower)
     try:
         yield

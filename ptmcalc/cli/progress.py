@@ -1,4 +1,4 @@
-"""One line on a terminal that says what a long computation does; it is gone when the report is printed."""
+"""Progress line on a terminal during a long computation; it is erased before the report."""
 
 import os
 import shutil
@@ -19,7 +19,7 @@ _CLEAR = "\r\x1b[2K"
 
 @contextmanager
 def shown() -> Iterator[None]:
-    """Show what is computed while it takes; nothing where standard error is no terminal."""
+    """Show the current step and the elapsed time; nothing if standard error is no terminal."""
     stream = sys.stderr
     if stream is None or not stream.isatty() or os.environ.get("TERM") == "dumb":
         yield
@@ -36,18 +36,18 @@ def shown() -> Iterator[None]:
 
 
 class _Line:
-    """The line: what is computed, and for how long already."""
+    """The progress line: current step and elapsed time."""
 
     def __init__(self, stream: TextIO) -> None:
         self.stream, self.text, self.since = stream, "reading", time.monotonic()
         self.done = threading.Event()
 
     def say(self, text: str) -> None:
-        """What is computed from now on."""
+        """Change the current step."""
         self.text = text
 
     def run(self) -> None:
-        """Write the line anew until the computation is done, then take it away."""
+        """Update the line until the computation ends, then erase it."""
         wait, written = _WAIT, False
         while not self.done.wait(wait):
             wait, written = _EVERY, True

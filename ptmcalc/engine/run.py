@@ -125,7 +125,7 @@ def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
 
 
 def _same(rung: Rung) -> tuple[str, frozenset[str], int]:
-    """What identifies a run of a scene."""
+    """Solver, effects and level: equal for equal runs of a scene."""
     return rung.solver.name, rung.carried, rung.level
 
 

@@ -259,7 +259,7 @@ def _checks(console: Console, report: FileReport, rows: Sequence[Row], *, edge: 
 
 
 def _remarks(report: FileReport, rows: Sequence[Row], edge: bool) -> dict[tuple[str, str, str], list[str]]:
-    """What is said below the table, and of which checks: each cause once. The first one stands above everything."""
+    """Remarks below the table with their checks, each cause once; that of the worst check stands above the table."""
     lines: dict[tuple[str, str, str], list[str]] = {}
     first = ""
     for index, row in enumerate(rows):
