@@ -169,3 +169,12 @@ def test_bad_values_are_refused_with_one_message(changes: dict[str, Any], said: 
     found = [one for one in result.diagnostics if one.severity.rank == 2]
     assert len(found) == 1
     assert said in found[0].message + found[0].hint
+
+
+def test_without_a_distance_or_a_hook_height_the_descent_is_not_checked() -> None:
+    """The load might hang just above the ground."""
+    scene = {"type": "emergency_stop"}
+    report = report_of(changed(HOIST, scenes=[scene], checks={}))
+    (found,) = (one for _, one in report.judgements if one.code == "HST128")
+    assert found.verdict is Verdict.NOT_CHECKED
+    assert "checks.stop_distance" in found.reason

@@ -15,8 +15,8 @@ _KEPT = LimitState("brake does not stop the load")
 
 
 def _descent_limit(spec: Hoist, scene: EmergencyStop) -> Estimate:
-    """Stopping distance of the file, at most the height of the hook above the ground: of the scene, or the whole
-    lifting height.
+    """Stopping distance of the file, at most the height of the hook above the ground in the scene, or the lifting
+    height.
 
     **Range** a load that is lowered, or sinks after it was hoisted.
     **Error** none: a chosen limit.
@@ -25,6 +25,12 @@ def _descent_limit(spec: Hoist, scene: EmergencyStop) -> Estimate:
     ground = scene.hook_height or spec.height
     given = spec.checks.stop_distance
     return Estimate.exact(ground if given is None else min(given, ground))
+
+
+def _needs_distance(spec: Hoist, scene: EmergencyStop) -> tuple[KeyPath, ...]:
+    """A distance: without one, the load might be just above the ground."""
+    known = spec.checks.stop_distance is not None or scene.hook_height is not None
+    return () if known else (("checks", "stop_distance"),)
 
 
 DESCENDS: OneCheck = Check(
@@ -38,7 +44,7 @@ DESCENDS: OneCheck = Check(
     loads=(DESCENT,),
     sense=Sense.AT_MOST,
     limit=_descent_limit,
-    needs=no_needs,
+    needs=_needs_distance,
     blame=blames("brake", "torque"),
     repair=no_repair,
     what="After a power failure the load descends at most the distance of the file and not to the ground. A brake that"
