@@ -392,6 +392,37 @@ def solve(
 
 
 @app.command()
+def improve(
+    path: Annotated[str, typer.Argument(help="A design file.")],
+    code: Annotated[
+        list[str] | None,
+        typer.Option("--check", metavar="CODE", help="Only this check is to pass; may be repeated. Default: all."),
+    ] = None,
+    keys: Annotated[
+        str,
+        typer.Option(
+            "--keys",
+            metavar="KEYS",
+            help="Only these keys may change, e.g. takeup.tension,belt.strength; with a + before the first, these too.",
+        ),
+    ] = "",
+    scene: ScenesOption = None,
+    accuracy: AccuracyOption = "",
+    form: ListOption = ListFormat.TABLE,
+) -> None:
+    """Find what to change so that all failed and undecided checks pass: one key, or two, and what gets worse.
+
+    Every value is put into the machine and checked. Limits, ratings, requirements and waiting times are not changed.
+    Exit status: 0 if a key or a pair passes all and makes no other check fail, else 1; 2 wrong usage or an invalid
+    file.
+    """
+    from ptmcalc.cli.improve import show_improvement
+
+    as_json = form == ListFormat.JSON
+    raise typer.Exit(show_improvement(path, tuple(scene or ()), code or (), keys, accuracy, as_json=as_json))
+
+
+@app.command()
 def sweep(
     path: Annotated[str, typer.Argument(help="A design file.")],
     vary: Annotated[
