@@ -41,7 +41,6 @@ from ptmcalc.engine.repair import Repairs
 from ptmcalc.engine.run import NO_MEMORY, WORK_BUDGET
 from ptmcalc.engine.settled import Run, Settled
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
-from ptmcalc.engine.waive import about_waivers, waived
 from ptmcalc.engine.widen import absent
 from ptmcalc.spec.alias import said_as_written
 from ptmcalc.spec.machine import MachineSpec
@@ -166,10 +165,14 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     )
     repairs = Repairs(loaded, options.scenes, purse, partial(_again, options))
     scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options, repairs).scene() for scene in settled)
-    today = options.today or date.today()
-    diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
+    judged = scenes
+    if spec.waive:
+        from ptmcalc.engine.waive import about_waivers, waived
+
+        today = options.today or date.today()
+        diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
+        judged = waived(spec, scenes, today)
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
-    judged = waived(spec, scenes, today)
     diagnostics += tuple(_nothing_checked(loaded, judged))
     tables = kind.tables_of(spec, judged)
     project = spec.project.given if spec.project is not None else ()
