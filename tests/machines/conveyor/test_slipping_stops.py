@@ -16,8 +16,8 @@ from support.machines import spec_of
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.conveyor.loads import OF_STOP
-from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.machine.loads import OF_STOP
+from ptmcalc.machines.conveyor.machine.motion import moving
 from ptmcalc.machines.conveyor.waves import cell_runs, network
 
 EFFECTS = frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers"})

@@ -3,18 +3,10 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.run_back import held_torque, rollback_check
-from ptmcalc.machines.conveyor.brakes import braking
 from ptmcalc.machines.conveyor.holding.scenes import asks_for_hold
-from ptmcalc.machines.conveyor.spec import (
-    Coast,
-    Conveyor,
-    ConveyorScene,
-    EmergencyStop,
-    Hold,
-    Run,
-    Start,
-    Stop,
-)
+from ptmcalc.machines.conveyor.machine.brakes import braking
+from ptmcalc.machines.conveyor.machine.scenes import Coast, ConveyorScene, EmergencyStop, Hold, Run, Start, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 
 def _backstop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:

@@ -2,7 +2,8 @@
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.run_back import checked_elsewhere, rollback_scene
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Hold, Run, Start, Stopping
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Hold, Run, Start, Stopping
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 AT_REST = 0.5
 """Share of the idler resistance that certainly acts at standstill, by default [1]; practice for backstops. A larger

@@ -10,22 +10,14 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.conveyor.holding.scenes import elsewhere, rest_factor
-from ptmcalc.machines.conveyor.model import (
+from ptmcalc.machines.conveyor.machine.model import (
     belt_line,
     special_resistance,
     turns,
 )
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import (
-    Coast,
-    Conveyor,
-    ConveyorScene,
-    EmergencyStop,
-    Hold,
-    Run,
-    Start,
-    Stop,
-)
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import Coast, ConveyorScene, EmergencyStop, Hold, Run, Start, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 
 def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:

@@ -5,7 +5,7 @@ from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
 from ptmcalc.machines.conveyor.holding.checks import BACKSTOP
 from ptmcalc.machines.conveyor.holding.solver import HOLDING
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 LOADS = (LoadInfo("backstop_torque", "rollback torque, drive pulley shaft", units.TORQUE, governing=True),)
 

@@ -35,10 +35,18 @@ import numpy as np
 from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import capstan
-from ptmcalc.machines.conveyor.loads import BRAKING_FORCE, BRAKING_RESERVE, GRIP, OF_BRAKES, OF_STOP, SLIPS, TENSIONS
-from ptmcalc.machines.conveyor.model import grips
-from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.rigid_stop import deceleration
+from ptmcalc.machines.conveyor.machine.loads import (
+    BRAKING_FORCE,
+    BRAKING_RESERVE,
+    GRIP,
+    OF_BRAKES,
+    OF_STOP,
+    SLIPS,
+    TENSIONS,
+)
+from ptmcalc.machines.conveyor.machine.model import grips
+from ptmcalc.machines.conveyor.machine.motion import Moving
+from ptmcalc.machines.conveyor.machine.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.stopping.brake_heat import moved_heat
 from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.cell_loads import LOW_CARRY, LOW_PLACES, LOW_RETURN, OneGrid, Values

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from ptmcalc.contract.result import of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking_at_shaft
 from ptmcalc.machines.conveyor.curves.loads import bend_names
-from ptmcalc.machines.conveyor.keys.route import Curve
-from ptmcalc.machines.conveyor.loads import (
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking_at_shaft
+from ptmcalc.machines.conveyor.machine.keys.route import Curve
+from ptmcalc.machines.conveyor.machine.loads import (
     BELT_SPEED,
     BRAKE_HEAT,
     BRAKING_FORCE,
@@ -24,10 +24,10 @@ from ptmcalc.machines.conveyor.loads import (
     RUN_BACK_SPEED,
     may_run_back,
 )
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, braking_force, starting_force, turns
-from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import ControlledStop, Start
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray, braking_force, starting_force, turns
+from ptmcalc.machines.conveyor.machine.motion import Moving
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, Start
 from ptmcalc.machines.conveyor.stopping.brake_heat import with_power
 from ptmcalc.machines.conveyor.takeup.travel import moved
 from ptmcalc.machines.conveyor.waves.cells import Set

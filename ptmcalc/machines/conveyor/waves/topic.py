@@ -3,8 +3,8 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.conveyor.loads import BELT_SPEED, MOTOR_SPEED, parts_of
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.loads import BELT_SPEED, MOTOR_SPEED, parts_of
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.waves.effects.damping import BELT_DAMPING
 from ptmcalc.machines.conveyor.waves.effects.gear import GEAR_LOSSES

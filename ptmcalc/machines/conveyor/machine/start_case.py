@@ -8,9 +8,10 @@ import numpy as np
 from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.laws import belt_modes, loop_bounds, start_profile
 from ptmcalc.laws.loop_bounds import LoopMasses
-from ptmcalc.machines.conveyor.loads import FREQUENCIES
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, belt_line, loop_masses, starting_force
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.machine.loads import FREQUENCIES
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray, Strand, belt_line, loop_masses, starting_force
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 
 @dataclass(frozen=True, slots=True)

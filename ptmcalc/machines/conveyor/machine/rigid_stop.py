@@ -3,10 +3,11 @@
 import math
 
 from ptmcalc.laws import start_profile
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.drives import moving_mass
-from ptmcalc.machines.conveyor.model import BeltLine
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.machine.drives import moving_mass
+from ptmcalc.machines.conveyor.machine.model import BeltLine
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, ConveyorScene
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 
 def rigid_stop(spec: Conveyor, scene: ConveyorScene, line: BeltLine, until: float = 0.0) -> tuple[float, float]:

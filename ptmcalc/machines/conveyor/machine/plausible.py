@@ -12,8 +12,9 @@ from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.result import Finding
-from ptmcalc.machines.conveyor.loading import load_line_mass, points_of
-from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive
+from ptmcalc.machines.conveyor.machine.keys.drives import PlacedDrive
+from ptmcalc.machines.conveyor.machine.loading import load_line_mass, points_of
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 _LEAST_LOAD = 0.02
 """Load per length relative to the mass of the belt [1] below which SPC201 is reported. An engineering choice: light

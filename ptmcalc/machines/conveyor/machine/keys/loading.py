@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Annotated, Any
 
 from ptmcalc.base import units
-from ptmcalc.machines.conveyor.keys.resistance import Skirt
+from ptmcalc.machines.conveyor.machine.keys.resistance import Skirt
 from ptmcalc.spec.fields import MassFlow, SignedSpeed, Span
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.optional import Absent

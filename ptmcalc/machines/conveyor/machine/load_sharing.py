@@ -8,10 +8,11 @@ import numpy as np
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.steady_drive import FloatArray, Motors, shared_forces, steady_speed
-from ptmcalc.machines.conveyor.keys.converter import leaders
-from ptmcalc.machines.conveyor.model import BeltLine, drive_force, turns
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive
+from ptmcalc.machines.conveyor.machine.keys.converter import leaders
+from ptmcalc.machines.conveyor.machine.keys.drives import PlacedDrive
+from ptmcalc.machines.conveyor.machine.model import BeltLine, drive_force, turns
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 _FOLLOWED = 12
 """Rounds in which drives that follow the torque of a drive after them find its speed [1]; a numerical choice. Each

@@ -9,9 +9,10 @@ import numpy as np
 from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.starting_gear import SoftStarter, StarDelta, in_star
 from ptmcalc.laws import start_profile
-from ptmcalc.machines.conveyor.load_sharing import steady_forces
-from ptmcalc.machines.conveyor.loading import Filling
-from ptmcalc.machines.conveyor.model import (
+from ptmcalc.machines.conveyor.machine.keys.drives import PlacedDrive
+from ptmcalc.machines.conveyor.machine.load_sharing import steady_forces
+from ptmcalc.machines.conveyor.machine.loading import Filling
+from ptmcalc.machines.conveyor.machine.model import (
     BeltLine,
     FloatArray,
     belt_line,
@@ -20,8 +21,9 @@ from ptmcalc.machines.conveyor.model import (
     keeps_length,
     turns,
 )
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, PlacedDrive, Start, steady
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, ConveyorScene, Start, steady
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.numerics.belt.compiled import forces, start_on_curves
 from ptmcalc.numerics.belt.curve import CurveStage, MotorForce
 

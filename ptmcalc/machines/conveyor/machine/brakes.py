@@ -5,8 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Brake, ControlledStop, Conveyor, ConveyorScene, EmergencyStop, Stop
+from ptmcalc.machines.conveyor.machine.keys.drives import Brake
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, ConveyorScene, EmergencyStop, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 FloatArray = NDArray[np.float64]
 

@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 from ptmcalc.base.memory import kept_for
 from ptmcalc.laws import inertia, motor, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.conveyor.brakes import braked_shafts
-from ptmcalc.machines.conveyor.keys.belt import IdlerRow
-from ptmcalc.machines.conveyor.loading import (
+from ptmcalc.machines.conveyor.machine.brakes import braked_shafts
+from ptmcalc.machines.conveyor.machine.keys.belt import IdlerRow
+from ptmcalc.machines.conveyor.machine.keys.drives import Drive
+from ptmcalc.machines.conveyor.machine.loading import (
     Filling,
     Names,
     Piece,
@@ -27,8 +28,9 @@ from ptmcalc.machines.conveyor.loading import (
     pieces,
     sections,
 )
-from ptmcalc.machines.conveyor.resistances import Extra, extra_forces, filled, idler_friction
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Run, Start, Stopping, steady
+from ptmcalc.machines.conveyor.machine.resistances import Extra, extra_forces, filled, idler_friction
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Run, Start, Stopping, steady
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.numerics import lanes
 
 FloatArray = NDArray[np.float64]

@@ -6,10 +6,11 @@ from itertools import chain, combinations, pairwise
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.laws import belt_resistance
-from ptmcalc.machines.conveyor.keys.loading import NEAR, LoadingPoint
-from ptmcalc.machines.conveyor.keys.route import Section
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
+from ptmcalc.machines.conveyor.machine.keys.loading import NEAR, LoadingPoint
+from ptmcalc.machines.conveyor.machine.keys.route import Section
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.numerics.lanes import value
 
 Names = tuple[str, ...]

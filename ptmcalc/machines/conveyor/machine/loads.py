@@ -4,7 +4,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Start
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 TENSIONS = (
     "tension_run_on_max",

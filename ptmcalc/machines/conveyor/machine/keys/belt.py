@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.machines.conveyor.keys.damping import Damping
-from ptmcalc.machines.conveyor.keys.loading import MOST_POINTS, LoadingPoint, contradictory_points
+from ptmcalc.machines.conveyor.machine.keys.damping import Damping
+from ptmcalc.machines.conveyor.machine.keys.loading import MOST_POINTS, LoadingPoint, contradictory_points
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Length,

@@ -6,7 +6,7 @@ import numpy as np
 
 from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray
 from ptmcalc.numerics.lanes import value
 
 _STRANDS = (RETURN, CARRY)

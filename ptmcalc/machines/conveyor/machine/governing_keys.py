@@ -4,7 +4,8 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 TENSION: KeyPath = ("takeup", "tension")
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from ptmcalc.laws import belt_resistance, resistance
-from ptmcalc.machines.conveyor.keys.resistance import Cema, ExtraForce
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.keys.resistance import Cema, ExtraForce
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.numerics.lanes import value
 
 _CEMA_RETURN = 0.015

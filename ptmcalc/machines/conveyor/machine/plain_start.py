@@ -6,9 +6,10 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import RETURN
-from ptmcalc.machines.conveyor.model import BeltLine, belt_line
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Start
-from ptmcalc.machines.conveyor.start_case import lowest_frequency, start_case
+from ptmcalc.machines.conveyor.machine.model import BeltLine, belt_line
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import lowest_frequency, start_case
 
 
 def is_plain(spec: Conveyor, scene: ConveyorScene) -> bool:

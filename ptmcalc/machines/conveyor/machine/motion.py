@@ -8,7 +8,7 @@ import numpy as np
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.laws import capstan, start_profile
-from ptmcalc.machines.conveyor.drives import (
+from ptmcalc.machines.conveyor.machine.drives import (
     CONVERTER_STEPS,
     along_curve,
     at_rest,
@@ -20,17 +20,19 @@ from ptmcalc.machines.conveyor.drives import (
     rigid_start,
     running,
 )
-from ptmcalc.machines.conveyor.keys.converter import leaders
-from ptmcalc.machines.conveyor.load_sharing import (
+from ptmcalc.machines.conveyor.machine.keys.converter import leaders
+from ptmcalc.machines.conveyor.machine.keys.drives import PlacedDrive
+from ptmcalc.machines.conveyor.machine.load_sharing import (
     creep_of,
     motors_of,
     starting_shares,
     steady_forces,
     steady_motor_speeds,
 )
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force
-from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, Jam, PlacedDrive, Start, Stopping
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray, drive_force
+from ptmcalc.machines.conveyor.machine.rigid_stop import deceleration, rigid_stop
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, ConveyorScene, Jam, Start, Stopping
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.numerics.belt.curve import MotorForce
 
 _CONTOURS = 2.0
