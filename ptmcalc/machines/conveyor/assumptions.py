@@ -236,10 +236,10 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "rest_factor"),
         units.RATIO,
-        lambda spec: AT_REST if any(asks_for_hold(spec, scene) for scene in spec.all_scenes) else None,
+        lambda spec: AT_REST if any(asks_for_hold(spec, one) for one in spec.all_scenes) else None,
         lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
         "practice for backstops: half of the running resistance of the idlers, none of loading points and cleaners",
-        Use(loads=frozenset({"backstop_torque"})),
+        Use(loads=frozenset({"backstop_torque", "forward_torque"})),
     ),
     Assumption(
         ("takeup", "mass"),

@@ -21,6 +21,11 @@ def asks_for_hold(spec: Conveyor, scene: ConveyorScene) -> bool:
     return isinstance(scene, Hold) or scene == _asked_in(spec)
 
 
+def held_forward(spec: Conveyor, scene: ConveyorScene) -> bool:
+    """Whether a scene is one in which the forward torque is checked: a belt that stands, with a falling section."""
+    return isinstance(scene, Hold) and any(part.lift < 0 for part in spec.route.parts)
+
+
 @kept_for(64)
 def _asked_in(spec: Conveyor) -> ConveyorScene | None:
     """The scene in which the rollback torque of a belt that climbs is checked without a `backstop` scene."""

@@ -163,7 +163,8 @@ def _of_running(
     pull = line.static_resistance + line.tail_pull
     empty = running(spec, scene.model_copy(update={"load": "empty"}))
     nothing = empty.static_resistance + empty.tail_pull
-    mean = belt_resistance.mean_tension(np.diff(places), tensions)
+    fixed = line.fixed_length  # its mean is the mounting tension, without rounding
+    mean = line.takeup_tension if fixed else belt_resistance.mean_tension(np.diff(places), tensions)
     mounting = spec.takeup.tension
     loads = {
         "effective_tension": pull,
