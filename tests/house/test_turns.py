@@ -13,6 +13,7 @@ TESTS = [f"{file}::test[{k}]" for file in FILES for k in range(3)] + [
     *(f"tests/stability/test_zoo.py::test[{k}]" for k in range(EXTREME)),
     *(f"tests/laws/test_sag.py::test[{k}]" for k in range(10)),
 ]
+LONG = [f"tests/laws/test_sag.py::test_long[{k}]" for k in range(35)]
 
 
 def at(commit: int, monkeypatch: pytest.MonkeyPatch) -> set[str]:
@@ -38,6 +39,19 @@ def test_a_share_of_each_sample_runs_at_a_commit_and_all_else_always(
     share = turns.BY_FILE["tests/coverage"]
     assert len(files) in (len(FILES) // share, len(FILES) // share + 1), "whole files take turns"
     assert sum("/coverage/" in name for name in running) == 3 * len(files)
+
+
+def test_the_cases_of_a_long_table_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    """35 cases are four parts of at most ten, but not in rooms whose tables run as a whole."""
+    found = set()
+    for commit in range(4):
+        monkeypatch.setattr(turns, "commit", lambda commit=commit: commit)
+        running = set(LONG) - turns.later(LONG, {})
+        assert len(running) in (8, 9)
+        found |= running
+        whole = [name.replace("tests/laws", "tests/reference") for name in LONG]
+        assert turns.later(whole, {}) == set()
+    assert found == set(LONG)
 
 
 def test_one_function_of_a_file_takes_turns_alone(monkeypatch: pytest.MonkeyPatch) -> None:
