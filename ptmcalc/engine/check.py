@@ -34,7 +34,7 @@ from ptmcalc.contract.report import (
 from ptmcalc.contract.result import Finding, History
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
-from ptmcalc.engine.plan import Plan, PlannedEffect, plan
+from ptmcalc.engine.plan import Plan, PlannedEffect, RungKey, plan
 from ptmcalc.engine.policy import ANY, Choice
 from ptmcalc.engine.purse import FilePurse
 from ptmcalc.engine.repair import Repairs
@@ -282,12 +282,13 @@ def _flips(
 
     A passing check passes only if it does so at both ends; a failing check fails unless it passes at an end. An open
     check, or one already changed by an earlier end, is not evaluated again, and runs whose loads do not depend on the
-    value are not made again.
+    value are not made again. Runs that did not decide at an earlier end come last.
     """
     rulings = dict(_by_key(made, settled))
     runs = {one.plan.scene.label: one.runs for one in settled}
     base = {key: ruling.verdict for key, ruling in rulings.items()}
     found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
+    later: dict[str, set[RungKey]] = {label: set() for label in runs}
     for value, end, other in variants(spec, assumed):
         left: dict[str, set[tuple[str, str]]] = {}
         readers = {one.label for one in spec.all_scenes if value.read_in(one)}
@@ -300,7 +301,13 @@ def _flips(
         step(f"assumption {dotted(value.path)} = {show(end, value.quantity)}")
         again = plan(kind, other, [one for one in other.all_scenes if one.label in left])
         same = {label: [run for run in runs[label] if not value.changes(run.result.loads)] for label in left}
-        ends = [purse.settle(kind, other, one, left[one.scene.label], same[one.scene.label]) for one in again.scenes]
+        ends = [
+            purse.settle(kind, other, one, left[label], same[label], later[label])
+            for one in again.scenes
+            for label in (one.scene.label,)
+        ]
+        for one in ends:
+            later[one.plan.scene.label].update(one.superseded)
         found |= {
             key: (value, end, ruling.verdict)
             for key, ruling in _by_key(again, ends)
