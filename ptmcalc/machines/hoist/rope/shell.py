@@ -160,8 +160,9 @@ def largest_stress(shell: Shell, axial: tuple[float, ...], shear: float) -> floa
 
 
 def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """Stresses of the drum under the design pull F = phi S.
+    """Stresses of the drum under the design pull.
 
+        F = phi S
         hoop: C F/(p t),   edge of the winding: 0.293 C F/(p t),   one wrap: 1.65 F/(sqrt(D) t^1.5)
         shell: max sqrt(s_x^2 - s_x s_t + s_t^2 + 3 tau^2),   flange: 6 M/t_f^2
 
