@@ -10,6 +10,7 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.components.start import Profile
 from ptmcalc.machines.hoist.keys.drive import Brake, Classes, Duty, Gearbox
+from ptmcalc.machines.hoist.keys.rope import Fleet, RopeLife, RopeProof
 from ptmcalc.machines.hoist.keys.tackle import (
     Drum,
     Limiter,
@@ -231,6 +232,12 @@ class Hoist(MachineSpec):
     """reeving"""
     rope: Rope
     """the wire rope"""
+    rope_life: RopeLife | None = None
+    """number of bendings of the rope until discard; needed to check its life"""
+    rope_proof: RopeProof | None = None
+    """proof of competence of the rope by EN 13001-3-2"""
+    fleet: Fleet | None = None
+    """limits of the fleet angles at the top hook position and at the flanges"""
     drum: Drum
     """the drum"""
     winding: Winding = Winding()
@@ -263,6 +270,7 @@ class Hoist(MachineSpec):
         if drum is not None and rope is not None:
             nested = winding is None or winding.word("packing") != "square"
             yield from layers_that_do_not_fit(drum, rope, nested)
+        yield from _rope_too_thin(given, rope)
         yield from _scenes_that_lack(given)
 
     @property
@@ -278,6 +286,19 @@ class Hoist(MachineSpec):
     @property
     def settings(self) -> HoistChecks:
         return self.checks
+
+
+_THINNEST = 3e-3
+"""Diameter of the thinnest rope with a number of bendings [m]. An engineering choice: the factor of the diameter grows
+without limit towards 1.4 mm."""
+
+
+def _rope_too_thin(given: Given, rope: Given | None) -> Iterator[Conflict]:
+    """The number of bendings is that of ropes, not of single wires."""
+    d = rope.number("diameter") if rope is not None else None
+    if "rope_life" in given and d is not None and d < _THINNEST:
+        reason = f"the number of bendings is valid from {units.show(_THINNEST, units.LENGTH)}"
+        yield Conflict(("rope", "diameter"), reason, "correct the diameter, or delete `rope_life`")
 
 
 @kept_for(64)

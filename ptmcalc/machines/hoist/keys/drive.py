@@ -9,6 +9,7 @@ from ptmcalc.base import units
 from ptmcalc.components import drive
 from ptmcalc.laws.duty import DUTY_TYPES
 from ptmcalc.spec.fields import (
+    FactorFromOne,
     HourlyRate,
     Measure,
     PositiveEnergy,
@@ -60,6 +61,28 @@ class Gearbox(drive.Gear):
             )
 
 
+class Holding(Fragment):
+    """Holding torque of the brake by a named rule, in addition to that of the mechanism group."""
+
+    rule: Literal["cmaa_70", "osha_1910_179", "fem_1_001", "en_14492_2"]
+    """CMAA 70, OSHA 1910.179, FEM 1.001 or EN 14492-2"""
+    edition: Annotated[str, Field(min_length=1, max_length=100, examples=["3rd edition, 1998"])]
+    """edition of the rule, for the report"""
+    brakes: Literal[1, 2] = 1
+    """holding brakes that share `torque`; each must hold alone with the factor of the rule"""
+    control_braking: Literal["mechanical", "other"] = "other"
+    """control braking of the lowered load, for CMAA 70 and OSHA 1910.179"""
+    load_torque: Literal["hoisting", "without_losses", "holding"] | None = None
+    """torque of the load to which the factor refers; default: hoisting with losses for CMAA 70 and OSHA 1910.179, else
+    without losses, which is more than the brake holds"""
+    factor: Annotated[FactorFromOne | None, Limit()] = None
+    """required ratio; default: that of the rule"""
+    torque_loss: Annotated[
+        float, Measure(units.SHARE, at_least=0, at_most=0.9), Absent("the rules refer to the rated brake torque")
+    ] = 0.0
+    """loss of the brake torque by wear of the lining; 10 to 20 % for spring brakes before they are readjusted"""
+
+
 class Brake(Fragment):
     """The holding brake."""
 
@@ -67,6 +90,8 @@ class Brake(Fragment):
     """of all brakes together, fully applied"""
     shaft: Literal["motor", "drum"] = "motor"
     """shaft of the brake"""
+    holding: Holding | None = None
+    """named rule of the holding torque"""
     delay: Annotated[
         Time, Assumed(0.0, 0.0, 0.3, "brakes released by a magnet or thruster close within 0.1 to 0.3 s")
     ] = 0.0

@@ -9,6 +9,7 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.spec.fields import (
     Efficiency,
+    FactorFromOne,
     Fraction,
     Inertia,
     Mass,
@@ -18,12 +19,13 @@ from ptmcalc.spec.fields import (
     PositiveFraction,
     PositiveLength,
     PositiveLineMass,
+    PositiveSpan,
     PositiveStiffness,
     PositiveStress,
     Span,
 )
-from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
-from ptmcalc.spec.optional import Absent, Assumed, Checked, OneOf, Setting
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf, Setting
 
 MOST_FALLS = 64
 """Falls of rope that a file may state; an engineering choice. It rejects misprints: a larger number accepts more of
@@ -101,6 +103,47 @@ class Rope(Fragment):
         yield from at_most_one(given, "area", "fill_factor")
 
 
+class DrumShell(Fragment):
+    """Stress of the drum shell and its flanges, to check it against the yield strength."""
+
+    material: Literal["S235", "S275", "S355"] | None = None
+    """steel of EN 10025-2; the yield strength follows from the thickness"""
+    yield_strength: Annotated[PositiveStress | None, OneOf("material")] = None
+    """of shell and flanges, instead of `material`"""
+    safety: Annotated[FactorFromOne, Limit()] = 1.5
+    """yield strength / permissible stress; default: 1.5 of FEM 1.001, case I, to be compared"""
+    load_factor: Annotated[FactorFromOne | None, Checked()] = None
+    """phi, dynamic factor of the rope pull; default: phi_2 of the hoisting class"""
+    layers: Literal["elastic", "dnv"] = "elastic"
+    """pressure of several layers: of elastic layers, or 1.75 of DNV 2.22:2011 for two; `checks.layer_factor` overrides
+    both"""
+    modulus: Annotated[
+        float,
+        Measure(units.STRESS, above=0),
+        Assumed(2.1e11, 2.0e11, 2.12e11, "steel 200 to 212 GPa; write that of iron"),
+    ] = 2.1e11
+    """modulus of elasticity of the shell"""
+    span: Annotated[PositiveSpan | None, Setting("the wound length of all parts")] = None
+    """distance of the bearings; default: the wound length of all parts"""
+    flange_thickness: Annotated[PositiveLength | None, Checked()] = None
+    """of the flanges; needed to check their stress under several layers"""
+    flange_pressure: Annotated[
+        float,
+        Measure(units.RATIO, at_least=0, at_most=1),
+        Assumed(0.4, 0.3, 0.5, "axial pressure on the flange 0.3 to 0.5 of the radial pressure, an engineering value"),
+    ] = 0.4
+    """axial pressure of the layers on the flanges / their radial pressure"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The strength is given in one way."""
+        yield from exactly_one(given, "material", "yield_strength")
+
+
+_THICKEST = 0.1
+"""Thickness up to which `material` has a yield strength [m]: the end of the table of EN 10025-2 (`laws.drum_shell`)."""
+
+
 class Drum(Fragment):
     """The drum."""
 
@@ -122,6 +165,24 @@ class Drum(Fragment):
     """of the shell below the grooves; needed to check its stress"""
     inertia: Annotated[Inertia | None, Assumed()] = None
     """of drum and attached parts, on the drum shaft; 0 when left out"""
+    shell: DrumShell | None = None
+    """material and flanges, to check the equivalent stress of the shell of `shell_thickness`"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The yield strength of a steel is known for its thickness; a shell is thinner than its drum."""
+        shell, thick, size = given.block("shell"), given.number("shell_thickness"), given.number("diameter")
+        if shell is None or "shell" not in given:
+            return
+        for key, one in (("shell_thickness", thick), ("flange_thickness", shell.number("flange_thickness"))):
+            if one is not None and one > _THICKEST and "material" in shell:
+                path = ("shell", key) if key == "flange_thickness" else (key,)
+                reason = f"the yield strength of {units.show(one, units.LENGTH)} is not known"
+                yield Conflict(path, reason, "write `yield_strength` under `shell` instead of `material`")
+        if thick is not None and size is not None and 4 * thick > size:
+            wall, found = units.show(thick, units.LENGTH), units.show(size, units.LENGTH)
+            reason = f"a drum of {found} with a wall of {wall} is no thin shell"
+            yield Conflict(("shell_thickness",), reason, "correct it, or delete `shell`")
 
 
 class Structure(Fragment):

@@ -214,8 +214,8 @@ def _hoop_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
 
 
 def _hoop_wanted(spec: Hoist, scene: HoistScene) -> bool:
-    given = spec.drum.shell_thickness is not None or spec.checks.hoop_stress is not None
-    return loaded(spec, scene) and given
+    thickness_alone = spec.drum.shell_thickness is not None and spec.drum.shell is None
+    return loaded(spec, scene) and (thickness_alone or spec.checks.hoop_stress is not None)
 
 
 HOOP: OneCheck = only(_hoop_wanted)(
