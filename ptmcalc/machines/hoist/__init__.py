@@ -8,14 +8,15 @@ from ptmcalc.contract.machine import MachineKind, Use, reference_methods_in, tem
 from ptmcalc.contract.result import Finding
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import lift_off_standard
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.assumptions import assumptions
 from ptmcalc.machines.hoist.braking.topic import BRAKING
 from ptmcalc.machines.hoist.drive.cycle import CYCLE
 from ptmcalc.machines.hoist.drive.holding import HOLDING_RULE
 from ptmcalc.machines.hoist.drive.topic import DRIVE
 from ptmcalc.machines.hoist.figures import FIGURES
-from ptmcalc.machines.hoist.model import drum_speed
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import drum_speed
+from ptmcalc.machines.hoist.machine.spec import CREEPING, Hoist, Run
 from ptmcalc.machines.hoist.motion.topic import MOTION
 from ptmcalc.machines.hoist.relations import RELATIONS
 from ptmcalc.machines.hoist.rope import life, shell
@@ -23,7 +24,6 @@ from ptmcalc.machines.hoist.rope.fleet import FLEET_ANGLES
 from ptmcalc.machines.hoist.rope.life import ROPE_LIFE
 from ptmcalc.machines.hoist.rope.proof import ROPE_PROOF
 from ptmcalc.machines.hoist.rope.shell import DRUM_SHELL
-from ptmcalc.machines.hoist.spec import CREEPING, Hoist, Run
 from ptmcalc.machines.hoist.statics.topic import STATICS
 from ptmcalc.machines.hoist.winding.topic import WINDING
 

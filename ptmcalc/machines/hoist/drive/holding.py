@@ -9,11 +9,11 @@ from ptmcalc.contract.result import Found, LoadInfo, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.contract.topic import Topic
 from ptmcalc.laws import brake, hoisting
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
-from ptmcalc.machines.hoist.keys.drive import Brake, Holding
-from ptmcalc.machines.hoist.model import loaded
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.keys.drive import Brake, Holding
+from ptmcalc.machines.hoist.machine.model import loaded
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 
 TORQUE, RESERVE = "holding_load_torque", "holding_torque_ratio"
 LOADS = (

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.spec import Hoist
 
 
 @dataclass(frozen=True, slots=True)

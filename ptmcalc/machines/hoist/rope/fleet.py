@@ -10,10 +10,10 @@ from ptmcalc.contract.result import Found, LoadInfo, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.contract.topic import Topic
 from ptmcalc.laws import rope_drum
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.keys.rope import Fleet
-from ptmcalc.machines.hoist.model import loaded
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.keys.rope import Fleet
+from ptmcalc.machines.hoist.machine.model import loaded
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 
 TOP, LEAST = "fleet_angle_top", "fleet_angle_least"
 LOADS = (

@@ -12,12 +12,12 @@ from ptmcalc.contract.result import Found, LoadInfo, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.contract.topic import Topic
 from ptmcalc.laws import rope_life
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.keys.rope import BendingConstants, RopeLife
-from ptmcalc.machines.hoist.model import loaded
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.keys.rope import BendingConstants, RopeLife
+from ptmcalc.machines.hoist.machine.model import loaded
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 from ptmcalc.machines.hoist.rope import bends
 from ptmcalc.machines.hoist.rope.bends import Bends
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
 
 FORCE, COUNT = "rope_life_force", "rope_bendings"
 ON_SHEAVE, ON_DRUM = "bendings_sheave", "bendings_drum"

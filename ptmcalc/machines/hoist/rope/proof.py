@@ -12,13 +12,13 @@ from ptmcalc.contract.result import Found, LoadInfo, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.contract.topic import Topic
 from ptmcalc.laws import rope_proof
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.keys.rope import RopeProof
-from ptmcalc.machines.hoist.model import loaded
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.keys.rope import RopeProof
+from ptmcalc.machines.hoist.machine.model import loaded
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 from ptmcalc.machines.hoist.rope import bends
 from ptmcalc.machines.hoist.rope.bends import Bends
 from ptmcalc.machines.hoist.rope.life import spectrum
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
 
 STATIC_FORCE, STATIC_RESISTANCE, STATIC = "rope_static_force", "rope_static_resistance", "rope_static_utilisation"
 FATIGUE_FORCE, FATIGUE_RESISTANCE = "rope_fatigue_force", "rope_fatigue_resistance"

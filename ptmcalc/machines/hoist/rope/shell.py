@@ -15,10 +15,10 @@ from ptmcalc.contract.result import Found, LoadInfo, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.contract.topic import Topic
 from ptmcalc.laws import drum_shell, rope_drum
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.keys.tackle import DrumShell
-from ptmcalc.machines.hoist.model import filled, loaded
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.keys.tackle import DrumShell
+from ptmcalc.machines.hoist.machine.model import filled, loaded
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 
 FACTOR, HOOP, LEFT = "shell_layer_factor", "shell_hoop_stress", "shell_pull_left"
 EDGE, WRAP, WRAP_HANDBOOK = "shell_edge_bending", "shell_wrap_bending", "shell_wrap_bending_handbook"

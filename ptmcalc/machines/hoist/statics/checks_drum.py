@@ -7,9 +7,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.contract.limits import key
 from ptmcalc.laws import hoist_class
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.model import loaded
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import loaded
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 from ptmcalc.machines.hoist.statics.checks_rope import RUNNING, OneCheck
 
 _FLEET, _FLEET_RESISTANT = math.radians(4), math.radians(2)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.motor_stage import Stage
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 
 FloatArray = NDArray[np.float64]
 
