@@ -46,7 +46,7 @@ LATER, G = 1.5, 9.81
 SLACK_SAG = 0.02
 FEW = 10
 LIMIT = Limit("safety_start", ("checks", "safety_start"), least=1e-6)
-WAYS = {"waves": MOTOR_WAVES, "teeth": MOTOR_TEETH}
+WAYS = {"waves": (MOTOR_WAVES, 0), "teeth": (MOTOR_TEETH, 1), "bound": (MOTOR_TEETH, 0)}
 ON_TRIAL_LOADS = ("tension_dynamic_start", "tension_start", "safety_start", "tension_min")
 
 
@@ -324,11 +324,11 @@ def trial(number: int, way: str) -> Trial:
         (scene,) = spec.all_scenes
         if not MOTOR_WAVES.usable_for(spec, scene):
             continue
-        plan, solver = plan_scene(KIND, spec, scene), WAYS[way]
-        claims = claim_of(plan, spec, solver, solver.always, 0)
+        plan, (solver, level) = plan_scene(KIND, spec, scene), WAYS[way]
+        claims = claim_of(plan, spec, solver, solver.always, level)
         if claims["tension_min"].low > 0 and claims["tension_start"].bounded:
             break
-    window = solver.run(spec, scene, solver.always, 0).window
+    window = solver.run(spec, scene, solver.always, level).window
     assert window is not None
     claimed = {way: {name: claims[name] for name in ON_TRIAL_LOADS}}
     rng = np.random.default_rng((SEED, 7, number))
@@ -340,7 +340,7 @@ def waves(request: pytest.FixtureRequest) -> list[Trial]:
     return [trial(number, "waves") for number in request.param]
 
 
-@pytest.fixture(scope="module", params=numbers(3, MACHINES // 5))
+@pytest.fixture(scope="module", params=numbers(8, MACHINES))
 def toothed(request: pytest.FixtureRequest) -> list[Trial]:
     return [trial(number, "teeth") for number in request.param]
 
