@@ -164,24 +164,30 @@ class Passing:
         (R_s R_on)^(1/2) x_max + (R_s R_off)^(1/2) x_max + 2 |e| R sum |M_k(s)|,   R_s = G_s - sum B_k(s)^2/M_belt
         """
         follow = residual(spec) * float(self.follow(spec, spec.sprocket.teeth)[-2:].max())
-
-        def rest(strand: int, x: FloatArray) -> FloatArray:
-            taken = np.sum(self.shapes(strand, x) ** 2, axis=0) / self.masses.belt_mass
-            return np.asarray(np.sqrt(np.maximum(loops.tension_green(self.masses, strand, x) - taken, 0.0)))
-
         if isinstance(self.masses, HeldStrands):
             tail = float(self.follow(spec, tail_teeth(spec))[-2:].max())
             near, far = (np.zeros(1), _END) if strand == RETURN else (_END, np.zeros(1))
-            ends = float(rest(strand, near)[0]) * follow + float(rest(strand, far)[0]) * tail
+            ends = float(self._rest(strand, near)[0]) * follow + float(self._rest(strand, far)[0]) * tail
             begun = loops.modal_rest(self.masses, self.frequencies, strand, x)
-            return np.asarray(rest(strand, x) * ends + 2 * self.sharpest * begun)
-        ends = float(rest(CARRY, _END)[0]) * follow
+            return np.asarray(self._rest(strand, x) * ends + 2 * self.sharpest * begun)
+        ends = float(self._rest(CARRY, _END)[0]) * follow
         if self.masses.fixed_length:
-            ends += float(rest(RETURN, np.zeros(1))[0]) * follow
-        if isinstance(spec.layout, TwoShafts):
-            ends += float(rest(CARRY, np.zeros(1))[0]) * float(self.follow(spec, tail_teeth(spec))[-2:].max())
+            ends += float(self._rest(RETURN, np.zeros(1))[0]) * follow
         begun = loops.modal_rest(self.masses, self.frequencies, strand, x)
-        return np.asarray(rest(strand, x) * ends + 2 * self.sharpest * begun)
+        driven = self.driven_left_out(spec, strand, x)
+        return np.asarray(self._rest(strand, x) * ends + driven + 2 * self.sharpest * begun)
+
+    def driven_left_out(self, spec: ChainDrive, strand: int, x: FloatArray) -> FloatArray:
+        """The same of the teeth of the driven one of two sprockets, shape (n,) [N]."""
+        if not isinstance(spec.layout, TwoShafts):
+            return np.zeros(len(x))
+        follow = float(self.follow(spec, tail_teeth(spec))[-2:].max())
+        return np.asarray(self._rest(strand, x) * float(self._rest(CARRY, np.zeros(1))[0]) * follow)
+
+    def _rest(self, strand: int, x: FloatArray) -> FloatArray:
+        """R_s^(1/2) of `left_out`, shape (n,) [kg^(1/2)]."""
+        taken = np.sum(self.shapes(strand, x) ** 2, axis=0) / self.masses.belt_mass
+        return np.asarray(np.sqrt(np.maximum(loops.tension_green(self.masses, strand, x) - taken, 0.0)))
 
     def ahead(self, spec: ChainDrive, teeth: int | None = None) -> float:
         """Most that a polygon, of the driving sprocket or of these teeth, lets the chain run ahead of its mean motion

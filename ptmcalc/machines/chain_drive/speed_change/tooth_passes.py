@@ -135,6 +135,20 @@ def _leads(passing: Passing) -> int:
     return _LEADS_HELD if isinstance(passing.masses, HeldStrands) else _LEADS
 
 
+def driven_teeth_alone(spec: ChainDrive, passings: tuple[Passing, ...], case: StartCase) -> TeethAlone:
+    """The same of the teeth of the driven one of two sprockets; none of a conveyor."""
+    if not isinstance(spec.layout, TwoShafts):
+        return TeethAlone(0.0, 0.0, 0.0, 0)
+    entering, anywhere = 0.0, 0.0
+    for one in passings:
+        sections = sections_of(case, len(one.frequencies))
+        found = _by_the_driven(spec, one, sections)
+        found = found + np.concatenate([one.driven_left_out(spec, strand, x) for strand, x in (_RUN_ON, *sections)])
+        entering += float(found[0])
+        anywhere += float(found[1:].max())
+    return TeethAlone(entering, anywhere, anywhere, 0)
+
+
 def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) -> _Found:
     """Every mode through the passes of the teeth at both ends, for several places of the first joint.
 

@@ -42,13 +42,13 @@ _UNRESOLVED = 0.05
 A smaller share takes more steps."""
 _TURN = 0.5
 """That angle [rad]."""
-_RESPONSE = 1.0
+RESPONSE = 1.0
 """Longest step relative to the time constant of drive mass and steepest torque of a stage [1]. A numerical choice:
 longer steps ring about the operating point."""
-_LEFT = 1e-3
+LEFT = 1e-3
 """Tension that may be left to come at the end of a run, relative to the static tension at the entering strand [1]. A
 numerical choice, in the error bar. A smaller value follows the chain longer."""
-_ORDERS = 0.5, 2.0
+ORDERS = 0.5, 2.0
 """Observed orders of convergence on which the error of the step is judged; the theoretical one is 2."""
 _SPEEDS = 0.2, 0.4, 0.6, 0.8
 """Shares of the largest speed of the rigid chain between which the extremes are kept apart [1]: teeth add little to
@@ -130,7 +130,8 @@ ON, SHAFT, ALONG = 0, 1, 2
 class Judged:
     """A start with its bars: dynamic tension at the entering strand, largest and smallest force through the sprocket
     shaft, smallest tension anywhere, bound of the largest leaving tension [N]; ends of the parts of the start [s],
-    bounds of the dynamic entering tension and of the smallest tension in each [N]; where and when they act."""
+    bounds of the dynamic entering tension and of the smallest tension in each [N], what may come of both after the end;
+    where and when they act."""
 
     dynamic: Estimate
     most: Estimate
@@ -138,6 +139,7 @@ class Judged:
     smallest: Estimate
     leaving: float
     parts: tuple[tuple[float, float, float], ...]
+    late: tuple[float, float]
     times: tuple[float, float]
     where: dict[str, float]
     end: float
@@ -178,7 +180,7 @@ def _steps(start: CurveStart) -> float:
     window = _START_TIMES * (case.end if math.isfinite(case.end) else 0.0)
     window += max([3 * force.motors.fill, *force.kinks]) + _PERIODS * 2 * math.pi / float(start.body.frequencies[0])
     steep = max(force.steepest(stage) for stage in range(len(force.motors.stages)))
-    step = min(start.step, _RESPONSE * start.body.drive_mass / steep) if steep > 0 else start.step
+    step = min(start.step, RESPONSE * start.body.drive_mass / steep) if steep > 0 else start.step
     return window / step
 
 
@@ -192,15 +194,15 @@ def _marched(spec: ChainDrive, scene: Start, start: CurveStart) -> Judged:
     case, count = start.case, len(start.body.frequencies)
     sections = sections_of(case, count)
     places = _places(spec, start, sections)
-    left = _LEFT * abs(case.line.run_on)
-    plan = Plan(start.force.release, start.step, _RESPONSE, left, count, scene.window_factor, marks=start.marks)
+    left = LEFT * abs(case.line.run_on)
+    plan = Plan(start.force.release, start.step, RESPONSE, left, count, scene.window_factor, marks=start.marks)
     fine = _follow(start, places, plan)
     short = replace(plan, latest=fine.end, longer=1.0)
     middle, coarse = (_follow(start, places, short.coarser(factor)) for factor in (2, 4))
     fewer = _follow(start, places, replace(short.coarser(4), felt=max(count // 2, 1)))
     first, second = _apart(fine, middle), _apart(middle, coarse)
-    order = min(max(math.log2(second / first), _ORDERS[0]), _ORDERS[1]) if 0 < first < second else _ORDERS[0]
-    off = (first / (2**order - 1) if first else 0.0) + _unfollowed(start.body, count // 2) * _apart(coarse, fewer)
+    order = min(max(math.log2(second / first), ORDERS[0]), ORDERS[1]) if 0 < first < second else ORDERS[0]
+    off = (first / (2**order - 1) if first else 0.0) + unfollowed(start.body, count // 2) * _apart(coarse, fewer)
     return _with_bars(start, sections, fine, off, order)
 
 
@@ -213,7 +215,7 @@ def _apart(one: Followed, other: Followed) -> float:
     return max(float(np.abs(one.largest - other.largest).max()), float(np.abs(one.smallest - other.smallest).max()))
 
 
-def _unfollowed(body: Body, half: int) -> float:
+def unfollowed(body: Body, half: int) -> float:
     """Share of the modes left out in the speed of the drive, relative to the upper half of those taken [1]."""
     taken = float(np.sum(body.mobilities[half:] / body.frequencies[half:]))
     return body.left_out / float(body.frequencies[-1]) / taken if taken > 0 else 1.0
@@ -235,7 +237,7 @@ def _with_bars(start: CurveStart, sections: Sections, found: Followed, off: floa
     static = np.concatenate([static_at(case, strand, x) for strand, x in sections])
     values = static + found.smallest[ALONG:]
     which = int(values.argmin())
-    between = _between_sections(start, sections, found)
+    between = between_sections(start, sections, found)
     lows = static + np.minimum(found.smallest_low[ALONG:] - between, 0.0)
     least, late = float(lows.min()) - off, float((static - after[ALONG:]).min())
     value = float(values[which])
@@ -250,6 +252,7 @@ def _with_bars(start: CurveStart, sections: Sections, found: Followed, off: floa
         smallest,
         case.line.run_off + float(max(found.largest_high[ALONG], after[ALONG])) + off,
         _by_parts(start, static, found, off, between),
+        (float(after[ON]), float(after[ALONG:].max())),
         (float(found.largest_time[ON]), float(found.largest_time[SHAFT])),
         {"time": float(found.smallest_time[ALONG + which]), "position": position_of(case, sections, which)},
         found.end,
@@ -274,7 +277,7 @@ def _by_parts(
     return tuple(parts)
 
 
-def _between_sections(start: CurveStart, sections: Sections, found: Followed) -> float:
+def between_sections(start: CurveStart, sections: Sections, found: Followed) -> float:
     """What a tension can fall between two sections: an eighth of its bend, |M_k''| <= (w t)^2 |M_k| [N]."""
     loop, w = start.case.masses, start.body.frequencies
     worst = 0.0
@@ -326,18 +329,18 @@ def histories(spec: ChainDrive, scene: Start, level: int) -> dict[str, History]:
     start = curve_start_of(spec, scene, level)
     count = len(start.body.frequencies)
     places = _places(spec, start, ((RETURN, np.zeros(1)),))
-    left = _LEFT * abs(start.case.line.run_on)
-    plan = Plan(start.force.release, start.step, _RESPONSE, left, count, keep=True)
+    left = LEFT * abs(start.case.line.run_on)
+    plan = Plan(start.force.release, start.step, RESPONSE, left, count, keep=True)
     found = _follow(start, places, plan)
     seen = np.concatenate([np.zeros((1, 2)), *found.samples])
     peak = int(seen[:, 1].argmax())
-    kept = np.unique(np.concatenate([np.arange(0, len(seen), max(len(seen) // _SHOWN, 1)), [peak, len(seen) - 1]]))
+    kept = np.unique(np.concatenate([np.arange(0, len(seen), max(len(seen) // SHOWN, 1)), [peak, len(seen) - 1]]))
     times, order = np.unique(seen[kept, 0], return_index=True)
     tensions = start.case.line.run_on + seen[kept, 1][order]
     return {"tension_start": History(units.FORCE, times.tolist(), tensions.tolist())}
 
 
-_SHOWN = 2000
+SHOWN = 2000
 """Samples of a history; a numerical choice. More draw it more smoothly and need memory; no load depends on them."""
 
 
