@@ -11,8 +11,9 @@ EXTREME = 10
 FILES = [f"tests/coverage/test_{name}.py" for name in "abcdefg"]
 TESTS = [f"{file}::test[{k}]" for file in FILES for k in range(3)] + [
     *(f"tests/stability/test_zoo.py::test[{k}]" for k in range(EXTREME)),
-    *(f"tests/laws/test_sag.py::test[{k}]" for k in range(10)),
+    *(f"tests/laws/test_sag.py::test[{k}]" for k in range(turns.MANY)),
 ]
+LONG = [f"tests/laws/test_sag.py::test_long[{k}]" for k in range(4 * turns.MANY - 1)]
 
 
 def at(commit: int, monkeypatch: pytest.MonkeyPatch) -> set[str]:
@@ -40,10 +41,24 @@ def test_a_share_of_each_sample_runs_at_a_commit_and_all_else_always(
     assert sum("/coverage/" in name for name in running) == 3 * len(files)
 
 
+def test_the_cases_of_a_long_table_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are four parts of about equal size, but not in rooms whose tables run as a whole."""
+    found = set()
+    for commit in range(4):
+        monkeypatch.setattr(turns, "commit", lambda commit=commit: commit)
+        running = set(LONG) - turns.later(LONG, {})
+        assert len(running) in (turns.MANY - 1, turns.MANY)
+        found |= running
+        whole = [name.replace("tests/laws", "tests/reference") for name in LONG]
+        assert turns.later(whole, {}) == set()
+    assert found == set(LONG)
+
+
 def test_one_function_of_a_file_takes_turns_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Not one whose name begins like its own; a class takes turns as a whole."""
     file = "tests/engine/test_points.py"
     names = [*(f"{file}::test_lanes[{k}]" for k in range(6)), f"{file}::test_lanes_too", f"{file}::TestA::test_lanes"]
+    monkeypatch.setattr(turns, "MANY", 10)
     monkeypatch.setattr(turns, "BY_TEST", {f"{file}::test_lanes": 3})
     monkeypatch.setattr(turns, "commit", lambda: 1)
     assert turns.later(names, {}) == {names[k] for k in (0, 1, 3, 4)}

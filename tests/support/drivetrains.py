@@ -2,8 +2,6 @@
 
 from typing import Any
 
-from ptmcalc.contract.report import FileReport
-from ptmcalc.engine.check import Options, check
 from ptmcalc.machines.drivetrain.spec import Drivetrain
 from ptmcalc.text.document import parse
 from support.machines import loaded
@@ -170,8 +168,3 @@ def spec_of(data: dict[str, Any]) -> Drivetrain:
     spec = loaded(data).spec
     assert isinstance(spec, Drivetrain)
     return spec
-
-
-def report_of(data: dict[str, Any], *, repairs: bool = False, **options: Any) -> FileReport:
-    """The whole report of a machine; repairs are looked for where a test asks for them, for they cost the most."""
-    return check(loaded(data), Options(**options, repairs=repairs))

@@ -13,17 +13,18 @@ from support.command import ROOT
 
 BY_TEST = {
     # Random or extreme machines, each like the next.
-    "tests/stability": 8,
-    "tests/edges/test_error_bars_meet.py": 8,
-    "tests/edges/test_forced_effects.py": 8,
-    "tests/edges/test_found_is_said.py": 8,
-    "tests/edges/test_longer_windows.py": 8,
-    "tests/edges/test_motor_curves.py": 8,
-    "tests/edges/test_relations.py": 8,
+    "tests/stability": 12,
+    "tests/edges/test_error_bars_meet.py": 12,
+    "tests/edges/test_forced_effects.py": 12,
+    "tests/edges/test_found_is_said.py": 12,
+    "tests/edges/test_longer_windows.py": 12,
+    "tests/edges/test_motor_curves.py": 12,
+    "tests/edges/test_relations.py": 12,
     "tests/machines/hoist/test_motion.py::test_absurd_sizes_end_in_a_report_of_numbers": 6,
     # One formula or one motion over a grid of its parameters; each value runs through the same lines.
     "tests/laws/test_belt_modes.py::TestTrace": 4,
     "tests/laws/test_rail.py::TestTwoMasses::test_no_load_at_the_wheels_is_beyond_the_sum_of_both": 3,
+    "tests/machines/conveyor/test_loading_points.py::test_starts_and_stops_are_those_of_finite_elements": 5,
     "tests/machines/conveyor/test_scenes.py::test_every_load_is_that_of_finite_elements": 3,
     "tests/machines/conveyor/test_static_starts.py::test_a_start_at_the_margins_neither_slips_nor_goes_slack": 4,
     "tests/machines/conveyor/test_torque_following.py::test_one_drive_leads_and_the_torques_have_one_ratio": 3,
@@ -39,6 +40,9 @@ BY_TEST = {
     "tests/numerics/test_rope.py": 6,
     "tests/numerics/test_train_random.py": 4,
     # The same statement of one machine or check after another; the statement is made by lines that all of them share.
+    "tests/cli/test_decode_command.py::test_the_losses_of_a_run_out": 3,
+    "tests/cli/test_decode_command.py::test_the_torque_of_a_brake": 3,
+    "tests/cli/test_decode_command.py::test_the_curve_of_a_motor": 3,
     "tests/cli/test_decode_command.py::test_a_strange_record_ends_in_numbers_or_in_a_message": 6,
     "tests/cli/test_scale_command.py::test_every_kind_has_a_model_by_every_law": 3,
     "tests/engine/test_points.py::test_lanes_are_files_of_their_own": 4,
@@ -52,8 +56,18 @@ BY_TEST = {
     "tests/house/test_explain.py::test_an_example_with_a_file_of_its_own_says_what_is_said": 3,
 }
 """One test in so many runs at each commit: of a room, of a file, or of what is named in it."""
-BY_FILE = {"tests/coverage": 6}
+BY_FILE = {"tests/coverage": 12}
 """The same of whole files, whose tests share one sample of random machines."""
+MANY = 5
+"""Cases of one test that run at each commit; those of a longer table take turns: they run through the same lines."""
+ALWAYS = (
+    "tests/edges",
+    "tests/house/test_specs.py",
+    "tests/questions",
+    "tests/reference",
+    "tests/report/test_golden.py",
+)
+"""Rooms whose tables run as a whole at each commit: each case is a machine or an answer of its own."""
 
 
 @cache
@@ -88,7 +102,7 @@ def share_of(turns: int, inputs: Sequence[Any]) -> list[Any]:
 
 
 def later(tests: Iterable[str], seconds: Mapping[str, float]) -> set[str]:
-    """Of the names of tests, those of `BY_TEST` and `BY_FILE` whose turn is at another commit.
+    """Of the names of tests, those whose turn is at another commit: of `BY_TEST`, of `BY_FILE` and of long tables.
 
     Files take their turns in the order of their seconds: each turn takes about as long.
     """
@@ -104,6 +118,23 @@ def later(tests: Iterable[str], seconds: Mapping[str, float]) -> set[str]:
         files = sorted(file for file in places if _within(file, path))
         names = [name for file in files for name in places[file] if not test or _named(name, test)]
         found.update(name for k, name in enumerate(names) if (k + commit()) % turns)
+    for cases in _tables(places).values():
+        turns = -(-len(cases) // MANY)
+        found.update(name for k, name in enumerate(cases) if (k + commit()) % turns)
+    return found
+
+
+def _tables(places: Mapping[str, Sequence[str]]) -> dict[str, list[str]]:
+    """The cases of each test that has no turns of its own."""
+    own = [room.partition("::") for room in BY_TEST]
+    found: dict[str, list[str]] = {}
+    for file, names in places.items():
+        if any(_within(file, room) for room in (*ALWAYS, *BY_FILE)):
+            continue
+        tests = [test for path, _, test in own if _within(file, path)]
+        for name in names:
+            if "[" in name and not any(not test or _named(name, test) for test in tests):
+                found.setdefault(name.partition("[")[0], []).append(name)
     return found
 
 

@@ -62,7 +62,7 @@ class Moving:
     scene: ConveyorScene
     line: BeltLine
     pulls: dict[str, Callable[[FloatArray], FloatArray]]
-    imposed: Callable[[float], float] | None
+    imposed: Callable[[FloatArray], FloatArray] | None
     speed: float
     window: float
     rigid_time: float
@@ -124,8 +124,8 @@ def _controlled_stop(spec: Conveyor, scene: ControlledStop, line: BeltLine) -> M
         }
         return Moving(spec, scene, line, pulls, None, line.speed, window, time, way, curves)
 
-    def imposed(now: float) -> float:
-        return line.speed * (1 - float(start_profile.rise(scene.shape, scene.time, now)))
+    def imposed(times: FloatArray) -> FloatArray:
+        return line.speed * (1 - start_profile.rise(scene.shape, scene.time, times))
 
     return Moving(spec, scene, line, pulls, imposed, line.speed, window, time, way)
 
@@ -177,8 +177,8 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
             window = max(latest + window, steady)  # a torque limit or the slip of the motors may delay the belt
             return Moving(spec, scene, line, pulls, None, 0.0, window, latest + rise, math.nan, curves)
 
-        def imposed(time: float) -> float:
-            return line.speed * float(start_profile.rise(profile.rise, rise, time))
+        def imposed(times: FloatArray) -> FloatArray:
+            return line.speed * start_profile.rise(profile.rise, rise, times)
 
         pulls = {name: _constant(0.0) for name in spec.all_drives}
         return Moving(spec, scene, line, pulls, imposed, 0.0, window, rise, math.nan)

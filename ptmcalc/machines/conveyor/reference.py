@@ -181,7 +181,10 @@ def _imposed(case: Moving, at: str) -> Callable[[float], float] | None:
         if scene.at != at:
             return None
         return lambda now: speed * max(1 - now / time, 0.0) if time else 0.0
-    return case.imposed if any(drive.at == at for drive in case.spec.all_drives.values()) else None
+    imposed = case.imposed
+    if imposed is None or all(drive.at != at for drive in case.spec.all_drives.values()):
+        return None
+    return lambda now: float(imposed(np.asarray(now)))
 
 
 def _rollers(case: Moving, carried: frozenset[str], at: str, pulled: float) -> tuple[Roller, ...]:

@@ -8,7 +8,7 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws.duty import DUTY_TYPES
 from ptmcalc.machines.hoist.braking.loads import ONE_STOP, REPEATED
-from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist
+from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist, WindUp
 
 _MASS_FACTOR, _LIGHT, _HEAVY = 3800.0, 3400.0, 4300.0
 """Mass per length of a rope relative to the square of its diameter [kg/m^3], EN 12385-4. `_MASS_FACTOR`: default.
@@ -179,4 +179,5 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             lambda spec: math.radians(60),
             lambda spec: Interval(math.radians(45), math.radians(75)),
             "crossovers of drums with parallel grooves extend over 60 to 70 deg; measure them",
+            Use(scenes=frozenset({WindUp})),
         )

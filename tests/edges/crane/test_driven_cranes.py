@@ -201,10 +201,12 @@ def test_the_rating_of_a_curve_is_that_of_the_motors() -> None:
     duty = {"type": "S3", "factor": "40 %"}
     data = changed(GANTRY, drive__motor__curve=induction(9, 2.2), duty=duty, scenes=[{"type": "run"}])
     both = changed(data, drive__motor__power="9 kW")
-    used = [load_of(scene_of(report_of(one)), "heating_utilisation").estimate.value for one in (data, both)]
+    used = [load_of(scene_of(report_of(one, ends=False)), "heating_utilisation").estimate.value for one in (data, both)]
     assert used[0] == pytest.approx(used[1], rel=1e-12)
-    assert check_of(scene_of(report_of(data)), "CRN162").blame.path == ("drive", "motor", "curve", "power")
+    assert check_of(scene_of(report_of(data, ends=False)), "CRN162").blame.path == ("drive", "motor", "curve", "power")
     slews = changed(SLEWING, motor__curve=induction(3.5, 2.4), motor__speed="960 rpm")
     both = changed(slews, motor__power="3.5 kW")
-    used = [load_of(scene_of(report_of(one)), "heating_utilisation").estimate.value for one in (slews, both)]
+    used = [
+        load_of(scene_of(report_of(one, ends=False)), "heating_utilisation").estimate.value for one in (slews, both)
+    ]
     assert used[0] == pytest.approx(used[1], rel=1e-12)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from support.drivetrains import data_of, report_of
-from support.machines import check_of, load_of, scene_of
+from support.drivetrains import data_of
+from support.machines import check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import SceneReport

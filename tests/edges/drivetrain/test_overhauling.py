@@ -3,8 +3,8 @@
 import math
 
 import pytest
-from support.drivetrains import data_of, report_of
-from support.machines import check_of, load_of, scene_of
+from support.drivetrains import data_of
+from support.machines import check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import SceneReport
@@ -42,7 +42,7 @@ def found(
     rest: str = "",
 ) -> SceneReport:
     text = TRAIN.format(motor=motor, torque=torque, ratio=ratio, reverse=reverse, count=count, more=more)
-    return scene_of(report_of(data_of(text + rest)))
+    return scene_of(report_of(data_of(text + rest), ends=False))
 
 
 def reserve(scene: SceneReport) -> float:

@@ -3,8 +3,8 @@
 import math
 
 import pytest
-from support.drivetrains import data_of, report_of
-from support.machines import check_of, load_of, scene_of
+from support.drivetrains import data_of
+from support.machines import check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import Judgement, SceneReport

@@ -1,8 +1,8 @@
 """A stop whose speed the file leaves out begins at the speed of the motor, and never at standstill unseen."""
 
 import pytest
-from support.drivetrains import data_of, report_of
-from support.machines import check_of, load_of, loaded, scene_of
+from support.drivetrains import data_of
+from support.machines import check_of, load_of, loaded, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 

@@ -5,6 +5,7 @@ swing earlier or later. Grids that agree say nothing of that.
 """
 
 import math
+from functools import cache
 from random import Random
 from typing import Any
 
@@ -41,6 +42,7 @@ def decline(seed: int) -> dict[str, Any]:
     return data
 
 
+@cache
 def stopped(seed: int) -> tuple[dict[str, Estimate], dict[str, float]] | None:
     """Loads of a stop with their error bars, and from the finer grid; None where no pulley slips or none comes to rest
     in the computed window."""

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from support.drivetrains import data_of, report_of
+from support.drivetrains import data_of
 from support.hybrid import Course, Link, Machine, Torque, simulate
-from support.machines import load_of, scene_of
+from support.machines import load_of, report_of, scene_of
 
 from ptmcalc.contract.report import SceneReport
 

@@ -3,8 +3,8 @@
 from typing import Any
 
 import pytest
-from support.drivetrains import report_of, spec_of
-from support.machines import changed, check_of, load_of, scene_of
+from support.drivetrains import spec_of
+from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.effect import EffectState

@@ -9,8 +9,7 @@ from typing import Any
 
 import pytest
 from support import hybrid
-from support.drivetrains import report_of
-from support.machines import changed, load_of, loaded, scene_of
+from support.machines import changed, load_of, loaded, report_of, scene_of
 
 from ptmcalc.contract.report import FileReport
 from ptmcalc.engine.check import Options, check

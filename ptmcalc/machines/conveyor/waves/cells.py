@@ -131,12 +131,12 @@ def _imposed(case: Moving, at: str, times: FloatArray) -> OverTime | None:
         imposed = case.imposed if any(drive.at == at for drive in case.spec.all_drives.values()) else None
     if imposed is None:
         return None
-    return OverTime(np.array([imposed(time) for time in times.tolist()]), float(times[1]))
+    return OverTime(imposed(times), float(times[1]))
 
 
-def _blocked(speed: float, time: float) -> Callable[[float], float]:
+def _blocked(speed: float, time: float) -> Callable[[FloatArray], FloatArray]:
     """Speed of a drum that comes to rest evenly in a time [s]."""
-    return lambda now: speed * max(1 - now / time, 0.0) if time else 0.0
+    return lambda times: speed * np.maximum(1 - times / time, 0.0) if time else np.zeros_like(times)
 
 
 def _shares(spec: Conveyor, at: str) -> tuple[float, ...]:

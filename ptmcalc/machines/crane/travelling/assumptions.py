@@ -16,7 +16,39 @@ _WIDE = 1.5
 """Wear that is reckoned with at most, over that of the standards."""
 _STEEL = 7850.0  # kg/m^3
 _OF_SKEWING = Use(frozenset({Skew, Runway}), frozenset({"skew_force", "runway_skew_angle"}))
-USES: Mapping[str, Use] = {"guide.tolerance": _OF_SKEWING, "guide.wear": _OF_SKEWING}
+_OF_TRAVEL = Use(
+    loads=frozenset(
+        {
+            "brake_distance",
+            "brake_time",
+            "drive_utilisation",
+            "heating_utilisation",
+            "horizontal_force",
+            "overhauling_reserve",
+            "skid_reserve",
+            "skid_reserve_min",
+            "stability_reserve",
+            "start_distance",
+            "start_time",
+            "starting_reserve",
+            "storm_reserve",
+            "sway_angle_max",
+            "sway_residual",
+            "torque_motor_max",
+            "wheel_load_factored",
+            "wheel_load_max",
+            "wheel_load_min",
+            "wind_reserve",
+        }
+    )
+)
+"""Resistance, losses and wind change the travel motion; buffers, rail steps and skewing have rules of their own."""
+USES: Mapping[str, Use] = {
+    "guide.tolerance": _OF_SKEWING,
+    "guide.wear": _OF_SKEWING,
+    "rail.slope": _OF_TRAVEL,
+    "wind.load_shape": _OF_TRAVEL,
+}
 
 
 def assumptions(spec: Travelling) -> Iterator[Assumption[Travelling]]:
@@ -111,6 +143,7 @@ def _of_the_rails(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             lambda spec: 0.015,
             lambda spec: Interval(0.01, 0.02),
             "wheels on rolling bearings 0.015 to 0.02, on plain bearings 0.08 to 0.1",
+            _OF_TRAVEL,
         )
         yield Assumption(
             ("rolling", "flange_factor"),
@@ -118,6 +151,7 @@ def _of_the_rails(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             lambda spec: 1.5,
             lambda spec: Interval(1.2, 1.8),
             "flanged cylindrical wheels on rolling bearings 1.5, conical wheels 1.2; plain bearings up to 2.5",
+            _OF_TRAVEL,
         )
     of_runway = spec.runway is not None and spec.runway.phi4 is None and (spec.rail.step > 0 or spec.rail.gap > 0)
     if of_runway or any(scene.type == "rail_step" for scene in spec.all_scenes):
@@ -138,6 +172,7 @@ def _of_the_rails(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             lambda spec: Interval(share * head, _WIDE * share * head) if head is not None else wide,
             "EN 13001-2, EN 1991-3: at least 0.1 of the rail head width with flanges, 0.03 with rollers;"
             " rail heads are 45 to 100 mm wide",
+            _OF_SKEWING,
         )
 
 
@@ -156,6 +191,7 @@ def _of_the_drive(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         lambda spec: spec.drive.reverse_range[0],
         lambda spec: Interval(*spec.drive.reverse_range),
         "2 - 1/efficiency with equal losses in both directions; as large as the efficiency at most",
+        _OF_TRAVEL,
     )
     rotor = spec.drive.motor.inertia
     yield Assumption(
