@@ -10,7 +10,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
 from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY
-from ptmcalc.machines.chain_drive.model import FloatArray
+from ptmcalc.machines.chain_drive.model import FloatArray, has_driven_tail
 from ptmcalc.machines.chain_drive.polygon.excitation import residual
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import static_at
@@ -120,7 +120,7 @@ def _marched(spec: ChainDrive, scene: Start, level: int) -> _Marched | None:
     It ends two stretches after that without teeth: each two teeth and one period of the lowest mode long, or longer.
     """
     start, rigid = curve_start_of(spec, scene, level), rigid_start(spec, scene)
-    if rigid is None or start.case.masses.fixed_length:
+    if rigid is None or has_driven_tail(spec) or start.case.masses.fixed_length:
         return None
     body, pitch, running = start.body, spec.chain.pitch, float(rigid.speeds[-1])
     step = _step(spec, start, rigid.fastest, level)
@@ -221,7 +221,7 @@ def _with_bars(whole: _Marched, found: list[Followed], off: float, late: tuple[f
 def coupled_cost(spec: ChainDrive, scene: Start, level: int) -> float | None:
     """Predicted seconds of all marches; None where there are none."""
     start, rigid = curve_start_of(spec, scene, level), rigid_start(spec, scene)
-    if rigid is None or start.case.masses.fixed_length:
+    if rigid is None or has_driven_tail(spec) or start.case.masses.fixed_length:
         return None
     steps = _ROUND_ABOUT * (rigid.end - rigid.release) / _step(spec, start, rigid.fastest, level)
     if steps > _MOST:

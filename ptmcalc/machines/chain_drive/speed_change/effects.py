@@ -10,7 +10,7 @@ from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.chain_drive import loops
 from ptmcalc.machines.chain_drive.loops import HeldStrands
-from ptmcalc.machines.chain_drive.model import chain_line, has_driven_tail, shares_torque
+from ptmcalc.machines.chain_drive.model import chain_line, shares_torque
 from ptmcalc.machines.chain_drive.spec import (
     ChainDrive,
     ChainScene,
@@ -353,8 +353,8 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
         P/S_static,   P of `passing.Passing.teeth_bound`;   infinite if the entering strand has no tension
 
-    **Range** any start and any range of speeds; infinite with a driven tail in a range of speeds, on a motor curve and
-    under torques of sprockets that are not synchronised.
+    **Range** any start and any range of speeds, which both sprockets of a driven tail keep; infinite under torques of
+    sprockets that are not synchronised.
     **Error** an upper bound.
     **Source** derived in `chain_start.passing_bound`; the threshold of 5 % is an engineering choice.
     """
@@ -365,11 +365,11 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
 
 def _teeth(spec: ChainDrive, scene: Start | SpeedRange) -> float:
-    """The bound of either scene [N]; unbounded for a driven tail in a range of speeds and under shared torques."""
+    """The bound of either scene [N]; unbounded for a driven tail under shared torques."""
     if isinstance(scene, SpeedRange):
-        return math.inf if has_driven_tail(spec) else range_passing(spec, scene).teeth_bound(spec)
+        return range_passing(spec, scene).teeth_bound(spec)
     case = start_case(spec, scene)
-    if (has_driven_tail(spec) and case.follows_curve) or _apart(spec, case):
+    if _apart(spec, case):
         return math.inf
     if not _moves(spec, case):
         return 0.0
@@ -384,8 +384,8 @@ def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Of
     On a motor curve P is the sum of the bounds for a drive whose torque does not depend on its speed, and for a drive
     whose speed does not change (`teeth.curve_teeth`).
 
-    **Range** a taut chain and a sprocket speed that only rises or only falls; with a driven tail unbounded in a range
-    of speeds, on a motor curve and under torques of sprockets that are not synchronised.
+    **Range** a taut chain and a sprocket speed that only rises or only falls, that of both sprockets of a driven tail;
+    unbounded under torques of sprockets that are not synchronised.
     **Error** a bound; see `chain_start.passing_bound`.
     **Source** variation of the input of every mode, derived.
     """

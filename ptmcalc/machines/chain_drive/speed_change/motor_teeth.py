@@ -74,7 +74,7 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
     x is the motion of the entering chain, x_d that of its sprocket, which the motors follow, u the polygon motion, m_d
     the mass of the drive. Chain, drive and motors run together, tooth after tooth, for several places of the first
     joint. Before that a bound is tried, and it is all there is with a screw take-up, where both ends of the chain are
-    on the teeth, and for starts with very many teeth:
+    on the teeth, with a driven tail, and for starts with very many teeth:
 
         S = S_motor +- (|S_m| + |S_v|),   part by part of the start
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ptmcalc.laws import chain_start, polygon, sprocket, start_profile
+from ptmcalc.laws import chain_start, held_strands, polygon, sprocket, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.chain_drive import loops
 from ptmcalc.machines.chain_drive.layout import TwoShafts
@@ -22,9 +22,8 @@ from ptmcalc.machines.chain_drive.model import (
 )
 from ptmcalc.machines.chain_drive.polygon.excitation import residual
 from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
-from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case, swinging_loop
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
-from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies as start_frequencies
 from ptmcalc.numerics import tooth_passes
 
 _FOR_BOUNDS = 12
@@ -125,7 +124,8 @@ class Passing:
 
             G^(1/2) (G_h^(1/2) x_h + G_t^(1/2) x_t) + EA/L (e u_h + u_t)      each strand, held at both sprockets
 
-        x_k are the bounds of `chain_start.passing_bound`, x_max the largest of them and of a mode beyond all others.
+        Under a torque the ends of both strands count in the bracket: they move each other through the sprockets. x_k
+        are the bounds of `chain_start.passing_bound`, x_max the largest of them and of a mode beyond all others.
         """
         if isinstance(self.masses, HeldStrands):
             return self._held_bound(spec, self.masses)
@@ -143,13 +143,15 @@ class Passing:
         share, worst = residual(spec), 0.0
         head = share * float(self.follow(spec, spec.sprocket.teeth).max())
         tail = float(self.follow(spec, tail_teeth(spec)).max())
+        stretch = share * self._most_stretch(spec, spec.sprocket.teeth) + self._most_stretch(spec, tail_teeth(spec))
+        roots, pushed = {}, {}
         for strand in (RETURN, CARRY):
             at = (0.0, 1.0) if strand == RETURN else (1.0, 0.0)
             near, far = (math.sqrt(float(loops.tension_green(strands, strand, x))) for x in at)
-            stretch = share * self._most_stretch(spec, spec.sprocket.teeth)
-            stretch += self._most_stretch(spec, tail_teeth(spec))
-            moved = max(near, far) * (near * head + far * tail)
-            worst = max(worst, moved + strands.stiffness_of(strand) * stretch)
+            roots[strand], pushed[strand] = max(near, far), near * head + far * tail
+        for strand in (RETURN, CARRY):
+            ends = pushed[strand] if strands.imposed_speed else sum(pushed.values())
+            worst = max(worst, roots[strand] * ends + strands.stiffness_of(strand) * stretch)
         return worst
 
     def _most_stretch(self, spec: ChainDrive, teeth: int) -> float:
@@ -165,10 +167,11 @@ class Passing:
         """
         follow = residual(spec) * float(self.follow(spec, spec.sprocket.teeth)[-2:].max())
         if isinstance(self.masses, HeldStrands):
-            tail = float(self.follow(spec, tail_teeth(spec))[-2:].max())
-            near, far = (np.zeros(1), _END) if strand == RETURN else (_END, np.zeros(1))
-            ends = float(self._rest(strand, near)[0]) * follow + float(self._rest(strand, far)[0]) * tail
-            begun = loops.modal_rest(self.masses, self.frequencies, strand, x)
+            tail, ends = float(self.follow(spec, tail_teeth(spec))[-2:].max()), 0.0
+            for one in (strand,) if self.masses.imposed_speed else (RETURN, CARRY):
+                near, far = (np.zeros(1), _END) if one == RETURN else (_END, np.zeros(1))
+                ends += float(self._rest(one, near)[0]) * follow + float(self._rest(one, far)[0]) * tail
+            begun = loops.modal_rest(self.masses, self._moved_by_start, strand, x)
             return np.asarray(self._rest(strand, x) * ends + 2 * self.sharpest * begun)
         ends = float(self._rest(CARRY, _END)[0]) * follow
         if self.masses.fixed_length:
@@ -204,13 +207,22 @@ class Passing:
         return 1 / (self.masses.carry_compliance + self.masses.return_compliance)
 
     @property
+    def _moved_by_start(self) -> FloatArray:
+        """Frequencies of the modes taken that the mean acceleration moves [rad/s]."""
+        if not isinstance(self.masses, HeldStrands) or self.masses.imposed_speed:
+            return self.frequencies
+        return np.array([w for w in of_loop(self.masses, 0.0, len(self.frequencies)) if w <= self.frequencies[-1]])
+
+    @property
     def excited_by_start(self) -> FloatArray:
         """What excites each mode per mean acceleration, as `modal_shapes` at an end do per polygon's [kg]."""
         if not self.started:
             return np.zeros(len(self.frequencies))
         if isinstance(self.masses, HeldStrands):
             ends = (self.shapes(strand, _END) - self.shapes(strand, np.zeros(1)) for strand in (RETURN, CARRY))
-            return np.asarray(sum(ends))[:, 0]
+            strands = self.masses.return_mass + self.masses.carry_mass
+            share = 1.0 if self.masses.imposed_speed else self.masses.total_mass / (self.masses.total_mass - strands)
+            return np.asarray(share * sum(ends))[:, 0]
         share = 1.0 if self.masses.imposed_speed else self.masses.total_mass / self.masses.drive_mass
         return share * (self.shapes(CARRY, _END) - self.shapes(RETURN, np.zeros(1)))[:, 0]
 
@@ -225,9 +237,11 @@ def swinging(damping_ratios: FloatArray) -> int:
 
 
 def range_passing(spec: ChainDrive, scene: SpeedRange, count: int = _FOR_BOUNDS) -> Passing:
-    """A range of speeds through which the sprocket is turned evenly faster or slower."""
-    masses = loop_masses(spec, scene)
+    """A range of speeds through which the sprocket, and a driven tail, is turned evenly faster or slower."""
+    masses = swinging_loop(spec, loop_masses(spec, scene))
     w = natural_frequencies(spec, scene, count=count)
+    if isinstance(masses, HeldStrands):
+        w = np.array(of_loop(masses, 0.0, count))
     w = w[: swinging(damping_ratios(damping(spec, scene), w))]
     first, last, time = scene.start, scene.end, scene.time
     rate = (last - first) / time
@@ -245,13 +259,19 @@ def range_passing(spec: ChainDrive, scene: SpeedRange, count: int = _FOR_BOUNDS)
     )
 
 
+def _moved_by_teeth(masses: LoopMasses, count: int) -> FloatArray:
+    """The lowest natural frequencies: of coupled sprockets also those of modes that leave them at rest, which only the
+    teeth move [rad/s]."""
+    if isinstance(masses, HeldStrands) and not masses.imposed_speed:
+        return held_strands.all_frequencies(masses, count)
+    return np.array(of_loop(masses, 0.0, count))
+
+
 def start_passing(spec: ChainDrive, scene: Start, count: int = _FOR_BOUNDS) -> Passing:
     """The teeth of a start, its sprocket turned as the rigid body is."""
     case = start_case(spec, scene)
     way, speed, acceleration, kinks = _motion(case)
-    w = start_frequencies(case, count)
-    if isinstance(case.masses, HeldStrands) and not case.imposed_speed:  # the teeth move all modes, for their bound
-        w = np.sort(np.concatenate([w, of_loop(replace(case.masses, imposed_speed=True), 0.0, count)]))
+    w = _moved_by_teeth(case.masses, count)
     w = w[: swinging(ratios(spec, scene, w))]
     return Passing(
         masses=case.masses,
@@ -276,6 +296,9 @@ def curve_teeth(spec: ChainDrive, scene: Start) -> float:
     that of motors whose torque falls with the speed. S_m is the tension of a torque that does not depend on the speed,
     S_v that of a constant speed. Imaginary parts of H and B have one sign: no weight exceeds 1.
 
+    The teeth of both sprockets of a driven tail that is synchronised move either strand, at both ends: with u_j at an
+    end j, S_v = sum c_j u_j and S_m = sum (c_j - c H_j/(H + A)) u_j, and the same weights.
+
     **Range** any start; infinite where the motors do not move the chain.
     **Error** a bound for every harmonic of a motor line of constant slope; the change of slope during the start, and
     the slow growth where the torque rises with the speed, are not in it.
@@ -294,7 +317,7 @@ def curve_passings(spec: ChainDrive, scene: Start, count: int = _FOR_BOUNDS) -> 
         return ()
     passings = []
     for masses in (case.masses, replace(case.masses, drive_mass=0.0, imposed_speed=True)):
-        w = np.array(of_loop(masses, 0.0, count))
+        w = _moved_by_teeth(masses, count)
         w = w[: swinging(ratios(spec, scene, w))]
         passings.append(
             Passing(

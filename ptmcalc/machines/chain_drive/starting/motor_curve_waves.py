@@ -12,16 +12,16 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.model import FloatArray, has_driven_tail
+from ptmcalc.machines.chain_drive import loops
+from ptmcalc.machines.chain_drive.model import FloatArray, shares_torque
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, sprocket_mass, start_case
 from ptmcalc.machines.chain_drive.starting.motor_force import StartForce, gear_of, stands_still, start_force
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import (
-    CURVE_SHARED,
+    TORQUE_SHARED,
     Sections,
     beyond_slack,
     felt,
@@ -82,7 +82,7 @@ def curve_start_of(spec: ChainDrive, scene: Start, level: int) -> CurveStart:
     case = start_case(spec, scene)
     force, loop = start_force(spec, case), case.masses
     w = natural_frequencies(case, felt(spec, scene, case, _MODES << level))
-    shares, rest = chain_resonance.drive_mobilities(loop, w)
+    shares, rest = loops.drive_mobilities(loop, w)
     gear = gear_of(spec, case)
     spare = max(gear.mass * (1 / (1 - gear.extra) - 1), 0.0)
     body = Body(loop.total_mass, w, ratios(spec, scene, w), shares, rest, spare)
@@ -104,12 +104,10 @@ def _places(spec: ChainDrive, start: CurveStart, sections: Sections) -> Places:
     loop, w, case = start.case.masses, start.body.frequencies, start.case
     whole = loop.total_mass
     all_places: Sections = ((CARRY, np.ones(1)), *sections)
-    gains = np.concatenate([chain_resonance.modal_tensions(loop, w, *one) for one in all_places], axis=1)
-    quasi = np.concatenate([loop_bounds.quasi_static(loop, *one) for one in all_places])
-    rest = np.concatenate([chain_resonance.modal_rest(loop, w, *one) for one in all_places])
-    masses = np.concatenate([loop_bounds.mass_behind(loop, *one) for one in all_places])
-    if loop.fixed_length:
-        masses = np.maximum(masses, loop.belt_mass - masses)
+    gains = np.concatenate([loops.modal_tensions(loop, w, *one) for one in all_places], axis=1)
+    quasi = np.concatenate([loops.quasi_static(loop, *one) for one in all_places])
+    rest = np.concatenate([loops.modal_rest(loop, w, *one) for one in all_places])
+    masses = np.concatenate([loops.swung_mass(loop, *one) for one in all_places])
     behind = start.gear.mass
     gains = np.concatenate(
         [gains[:, :1] / whole, behind * start.body.mobilities[:, None], gains[:, 1:] / whole], axis=1
@@ -282,7 +280,7 @@ def between_sections(start: CurveStart, sections: Sections, found: Followed) -> 
     loop, w = start.case.masses, start.body.frequencies
     worst = 0.0
     for strand, x in sections:
-        gains = np.abs(chain_resonance.modal_tensions(loop, w, strand, x)).max(axis=1) / loop.total_mass
+        gains = np.abs(loops.modal_tensions(loop, w, strand, x)).max(axis=1) / loop.total_mass
         bend = (w * travel_time(start.case, strand) * float(x[1])) ** 2 / 8
         worst = max(worst, float(np.sum(bend * gains * found.swings)))
     return worst
@@ -296,7 +294,8 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
 
     v is the speed of the sprocket, M_k and r as in `chain_start_waves`, g_k of `chain_resonance.drive_mobilities`. The
     chain is held until the motors pull more than it resists. The gear loses e = eta or 1/eta by the sign of the force
-    that it transmits. The chain is followed down the curve to the operating speed of the motors.
+    that it transmits. The chain is followed down the curve to the operating speed of the motors. Sprockets of a driven
+    tail that are synchronised are one mass with the drive (`laws.held_strands`).
 
     **Range** a taut chain that slides forward; hysteretic and Zener damping by the ratio of each mode.
     **Error** samples, neglected modes, sections and the time after the end by bounds; steps by halving with the
@@ -355,8 +354,8 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     **Source** Newton's law.
     """
     case = start_case(spec, scene)
-    if case.follows_curve and has_driven_tail(spec):
-        return CURVE_SHARED
+    if case.follows_curve and shares_torque(spec):
+        return TORQUE_SHARED
     count = (not case.follows_curve) + (case.follows_curve and stands_still(spec, case))
     meaning = "no motor curve, insufficient torque at standstill: none of them"
     return Criterion("n", float(count), 1.0, meaning, "count")
