@@ -141,7 +141,7 @@ def _speed_of_most(forces: Callable[[FloatArray], Forces], marks: Sequence[float
     low, high = least, max(2 * least, *marks) * 1.5 + 1e-9
     best = low
     for _ in range(2):
-        speeds = np.array(sorted({*np.linspace(low, high, _LOOKS).tolist(), *marks, best}))
+        speeds = np.unique(np.concatenate([np.linspace(low, high, _LOOKS), marks, [best]]))
         best = float(speeds[int(np.argmax(sign * np.sum(forces(speeds), axis=0)))])
         step = (high - low) / (_LOOKS - 1)
         low, high = max(least, best - step), best + step

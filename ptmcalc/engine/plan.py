@@ -49,6 +49,10 @@ class PlannedEffect:
         return self.forced and not self.excluded
 
 
+RungKey = tuple[str, frozenset[str], int]
+"""Solver, effects and level of a run."""
+
+
 @dataclass(frozen=True, slots=True)
 class Rung:
     """One possible run: a solver, the effects it carries, its refinement, and its predicted seconds."""
@@ -57,6 +61,11 @@ class Rung:
     carried: frozenset[str]
     level: int
     seconds: float
+
+    @property
+    def key(self) -> RungKey:
+        """Equal for equal runs of a scene."""
+        return self.solver.name, self.carried, self.level
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.contract.machine import AnyKind
-from ptmcalc.engine.plan import ScenePlan
+from ptmcalc.engine.plan import RungKey, ScenePlan
 from ptmcalc.engine.run import settle
 from ptmcalc.engine.settled import Run, Settled
 from ptmcalc.spec.machine import MachineSpec
@@ -42,10 +42,11 @@ class FilePurse:
         scene: ScenePlan,
         verdicts: Container[tuple[str, str]] | None = None,
         known: Sequence[Run] = (),
+        later: Container[RungKey] = (),
     ) -> Settled:
         """A scene, as far as what is left goes."""
         most = self.most
-        settled = settle(kind, spec, scene, budget=most, verdicts=verdicts, known=known)
+        settled = settle(kind, spec, scene, budget=most, verdicts=verdicts, known=known, later=later)
         if most < self.scene and settled.next_rung is not None:
             self.short[scene.scene.label] = None
         self.left -= settled.spent

@@ -11,7 +11,7 @@ from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.result import Finding, Result
 from ptmcalc.engine.judge import Ruling, contradicted, found_to_fail, judge
 from ptmcalc.engine.next_run import next_run, wanted_loads
-from ptmcalc.engine.plan import Rung, ScenePlan
+from ptmcalc.engine.plan import Rung, RungKey, ScenePlan
 from ptmcalc.engine.relate import related
 from ptmcalc.engine.scene_findings import beyond_budget, contradictions, open_ends, unreached
 from ptmcalc.engine.settled import Run, Settled, learn
@@ -36,15 +36,16 @@ def settle(
     verdicts: Container[tuple[str, str]] | None = None,
     until: Callable[[Rung], bool] = lambda rung: True,
     known: Sequence[Run] = (),
+    later: Container[RungKey] = (),
 ) -> Settled:
     """Run the cheapest rung, then the next that can help, until every verdict and the accuracy asked for stand.
 
     `only` settles one check and nothing else, `verdicts` those of some checks, by code and element: neither loads that
     none of them reads nor the accuracy asked for; `until` limits the rungs that may run (for predictions); `known` are
-    runs that were made and would have the same results.
+    runs that were made and would have the same results. Rungs of `later` run only if the others do not decide.
     """
     settled = Settled(scene)
-    results = {_same(run.rung): run.result for run in known}
+    results = {run.rung.key: run.result for run in known}
     whole = only is None and verdicts is None
     if verdicts is not None:
         spec = spec.model_copy(update={"accuracy": None})
@@ -59,7 +60,8 @@ def settle(
             settled.shown.append(Run(rung, shown))
             for name, found in shown.loads.items():
                 settled.formulas.setdefault(name, {})[solver.name] = found.estimate.value
-    waiting = list(scene.rungs)
+    postponed = {rung.key for rung in scene.rungs if rung.key in later and rung.key not in results}
+    waiting = [rung for rung in scene.rungs if rung.key not in postponed]
     shown_for = settled.beside
     while True:
         if settled.runs or not waiting:
@@ -67,10 +69,14 @@ def settle(
             following = next_run(settled, spec, waiting, wanted_loads(kind, spec, settled, whole=whole))
         else:
             following = waiting[0]  # nothing is known yet: whatever is wanted, the cheapest run comes first
+        if following is None and postponed:
+            waiting = [rung for rung in scene.rungs if rung in waiting or rung.key in postponed]
+            postponed = set()
+            continue
         settled.next_rung = following
         if following is not None and until(following) and settled.spent - shown_for + following.seconds <= budget:
             waiting.remove(following)
-            _climb(settled, spec, following, results.get(_same(following)))
+            _climb(settled, spec, following, results.get(following.key))
             _relate(kind, spec, settled)
             continue
         if not settled.runs:
@@ -122,11 +128,6 @@ def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
         settled.findings.append(Finding("NUM103", said))
         settled.beside += rung.seconds
         return None
-
-
-def _same(rung: Rung) -> tuple[str, frozenset[str], int]:
-    """Solver, effects and level: equal for equal runs of a scene."""
-    return rung.solver.name, rung.carried, rung.level
 
 
 def _climb(settled: Settled, spec: MachineSpec, rung: Rung, known: Result | None) -> None:

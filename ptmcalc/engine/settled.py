@@ -1,7 +1,7 @@
 """A scene after its runs: the loads as known best, with the run and the accuracy of each, and what was found."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from ptmcalc.base.estimate import NOTHING, Estimate, Interval
@@ -10,7 +10,7 @@ from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.result import Failure, Finding, Found, Result
 from ptmcalc.engine.judge import Ruling
-from ptmcalc.engine.plan import PlannedEffect, Rung, ScenePlan
+from ptmcalc.engine.plan import PlannedEffect, Rung, RungKey, ScenePlan
 from ptmcalc.engine.relate import narrowed
 from ptmcalc.spec.machine import MachineSpec
 
@@ -109,6 +109,14 @@ class Settled:
         richest = max(about, key=lambda run: (len(run.rung.carried), run.rung.level), default=None)
         found = richest.result.failures if richest is not None else ()
         return next((one for one in found if one.check == check.code and one.element in ("", check.element)), None)
+
+    @property
+    def superseded(self) -> Iterator[RungKey]:
+        """Runs after which the same solver ran with more effects or a finer level."""
+        for number, run in enumerate(self.runs):
+            for other in self.runs[number + 1 :]:
+                if other.rung.solver is run.rung.solver and other.rung.carried >= run.rung.carried:
+                    yield run.rung.key
 
     @property
     def carried(self) -> frozenset[str]:

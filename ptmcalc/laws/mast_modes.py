@@ -19,6 +19,10 @@ BASE, LOAD = "base", "load"
 _SERIES_BELOW = 2.0
 _TERMS = 14
 """Of series in (b^4)/(4 k)! for b below 2: the next term is below rounding."""
+_INVERSE_FACTORIALS = tuple(
+    tuple(1 / math.factorial(4 * n + first) for n in reversed(range(_TERMS))) for first in range(5)
+)
+"""1/(4 n + first)! of those series, the last term first."""
 _HALVINGS = 2200
 _LEAST, _MOST = 1e-100, 1e100
 """Frequencies in units of (E J/l^3 over the mass)^(1/2) beyond which none is looked for. A root so soft beside its
@@ -172,19 +176,27 @@ def _unit_stiffness(mast: Mast) -> float:
     return mast.flexural_stiffness / mast.length / mast.length / mast.length
 
 
+def _series(x: float, first: int) -> float:
+    """Sum of x^n/(4 n + first)!."""
+    found = 0.0
+    for one in _INVERSE_FACTORIALS[first]:
+        found = found * x + one
+    return found
+
+
 def _beam(b: float) -> tuple[float, float, float, float, float, float]:
     """Dynamic stiffness of a beam of unit length and stiffness, b^4 = w^2 m l^3/(E J): force at an end per shift and
     turn of it, moment per turn of it, then force and moment there per shift and turn of the other end."""
     if b < _SERIES_BELOW:
-        q, terms = -4 * b**4, range(_TERMS)
         r = b**4
-        pole = -sum(q**n / math.factorial(4 * n + 4) for n in terms) * -4.0  # (1 - cos cosh)/b^4
-        sine_sum = 2 * sum(q**n / math.factorial(4 * n + 1) for n in terms)  # (sin cosh + cos sinh)/b
-        sine_gap = 4 * sum(q**n / math.factorial(4 * n + 3) for n in terms)  # (sin cosh - cos sinh)/b^3
-        product = 2 * sum(q**n / math.factorial(4 * n + 2) for n in terms)  # sin sinh/b^2
-        far_sum = 2 * sum(r**n / math.factorial(4 * n + 1) for n in terms)  # (sinh + sin)/b
-        far_gap = 2 * sum(r**n / math.factorial(4 * n + 3) for n in terms)  # (sinh - sin)/b^3
-        far_cosine = 2 * sum(r**n / math.factorial(4 * n + 2) for n in terms)  # (cosh - cos)/b^2
+        q = -4 * r
+        pole = 4 * _series(q, 4)  # (1 - cos cosh)/b^4
+        sine_sum = 2 * _series(q, 1)  # (sin cosh + cos sinh)/b
+        sine_gap = 4 * _series(q, 3)  # (sin cosh - cos sinh)/b^3
+        product = 2 * _series(q, 2)  # sin sinh/b^2
+        far_sum = 2 * _series(r, 1)  # (sinh + sin)/b
+        far_gap = 2 * _series(r, 3)  # (sinh - sin)/b^3
+        far_cosine = 2 * _series(r, 2)  # (cosh - cos)/b^2
         return (
             sine_sum / pole,
             product / pole,

@@ -72,5 +72,16 @@ def smallest(values: FloatArray, step: float) -> tuple[float, float]:
 
 def gap(values: FloatArray, others: FloatArray, reach: int) -> float:
     """Largest distance of a value from the range of the others within so many samples."""
-    around = np.lib.stride_tricks.sliding_window_view(np.pad(others, reach, mode="edge"), 2 * reach + 1)
-    return float(np.maximum(values - around.max(axis=1), around.min(axis=1) - values).max(initial=0.0))
+    padded, width = np.pad(others, reach, mode="edge"), 2 * reach + 1
+    high, low = _of_windows(padded, width, np.maximum), _of_windows(padded, width, np.minimum)
+    return float(np.maximum(values - high, low - values).max(initial=0.0))
+
+
+def _of_windows(values: FloatArray, width: int, choose: np.ufunc) -> FloatArray:
+    """The largest or smallest value in every window of so many samples, from windows of half the width."""
+    half = 1
+    while 2 * half <= width:
+        values, half = choose(values[:-half], values[half:]), 2 * half
+    last = width - half
+    found: FloatArray = choose(values[: len(values) - last], values[last:])
+    return found

@@ -51,8 +51,13 @@ BY_TEST = {
     "tests/machines/crane/test_stacker_blame.py::test_what_governs_is_blamed_and_its_repair_passes": 3,
     "tests/machines/crane/test_stacker_combinations.py::test_a_change_of_an_event_changes_its_combinations": 3,
     "tests/report/test_html.py::test_a_page_is_sound": 4,
+    # Machines and processes that cost much; each of them stands for the others.
+    "tests/cli/test_cluster.py": 2,
+    "tests/house/test_imports.py": 2,
+    "tests/report/test_absent_effects.py": 3,
+    "tests/report/test_one_screen.py": 3,
     # Pages whose commands run, and stored examples: what they print has tests of its own.
-    "tests/house/test_docs.py": 6,
+    "tests/house/test_docs.py": 8,
     "tests/house/test_explain.py::test_an_example_with_a_file_of_its_own_says_what_is_said": 3,
 }
 """One test in so many runs at each commit: of a room, of a file, or of what is named in it."""

@@ -9,7 +9,8 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.drive import Gear
-from ptmcalc.components.motor import AnyMotor, FloatArray
+from ptmcalc.components.motor import AnyMotor
+from ptmcalc.components.motor_stage import FloatArray
 from ptmcalc.components.motor_starts import StartingMotor
 from ptmcalc.components.plate_motor import gives_curve
 from ptmcalc.components.run_back import USUAL_RESERVE

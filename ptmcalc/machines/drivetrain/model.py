@@ -8,7 +8,7 @@ import numpy as np
 
 from ptmcalc.base.memory import remembered
 from ptmcalc.components.motor import ConverterMotor
-from ptmcalc.components.motor import Stage as MotorStage
+from ptmcalc.components.motor_stage import Stage as MotorStage
 from ptmcalc.laws import backlash
 from ptmcalc.machines.drivetrain.keys.brakes import Brake
 from ptmcalc.machines.drivetrain.keys.links import Link

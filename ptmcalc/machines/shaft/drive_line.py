@@ -6,7 +6,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase, Stage
+from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase
+from ptmcalc.components.motor_stage import Stage
 from ptmcalc.laws import shaft as law
 
 FloatArray = NDArray[np.float64]

@@ -73,8 +73,17 @@ def changing_sides(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> Gear
     resistance = line.static_resistance + line.tail_pull
     outside = (resistance + sum((one.over(times) for one in acting), np.zeros_like(times))).tolist()
 
+    known: dict[tuple[float, ...], tuple[float, float]] = {}
+
     def rate(at: int) -> tuple[float, float]:
-        """Acceleration at a step, and the difference of the gears' force to that of the fixed side."""
+        """Acceleration at a step, and the difference of the gears' force to that of the fixed side; equal forces, as
+        of brakes that are fully on, have one answer."""
+        forces = (outside[at], *[one.brakes[at] for one in drives])
+        if forces not in known:
+            known[forces] = computed(at)
+        return known[forces]
+
+    def computed(at: int) -> tuple[float, float]:
         sides = [one.driven for one in drives]
         for _ in range(len(drives) + 2):
             speeds_up = _acceleration(rest, outside[at], drives, sides, at)

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.components.motor import ConverterMotor, Stage
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver

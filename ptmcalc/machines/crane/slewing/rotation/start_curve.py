@@ -9,7 +9,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.components.motor import ConverterMotor, Stage
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 

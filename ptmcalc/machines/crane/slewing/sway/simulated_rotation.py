@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.components.motor import ConverterMotor, Stage
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
 from ptmcalc.contract.result import Event
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene

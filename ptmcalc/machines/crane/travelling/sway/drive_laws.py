@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ptmcalc.components.motor import ConverterMotor, Stage
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.moving import Motion
