@@ -335,6 +335,11 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     held_strands.modal_tensions: HELD_MODES,
     held_strands.modal_shapes: HELD_MODES,
     held_strands.modal_rest: HELD_MODES,
+    held_strands.all_frequencies: [(loop, 5) for loop in HELD if not loop.imposed_speed],
+    held_strands.drive_mobilities: [
+        (loop, held_strands.natural_frequencies(loop, 3)) for loop in HELD if not loop.imposed_speed
+    ],
+    held_strands.swung_mass: HELD_SECTIONS,
     pendulum.swing_frequency: [(7.0, 9.81)],
     pendulum.swing_period: [(7.0, 9.81, 0.0), (7.0, 9.81, 1.2)],
     pendulum.driven_frequency: [(7.0, 9.81, 5e3, 2e3)],

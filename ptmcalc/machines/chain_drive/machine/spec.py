@@ -17,7 +17,7 @@ from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
 from ptmcalc.components.starting_gear import STAR, AnyStarter, StarDelta, UnratedCoupling, gear_without_curve
 from ptmcalc.laws import chain_selection, sprocket
-from ptmcalc.machines.chain_drive.chain_data import (
+from ptmcalc.machines.chain_drive.machine.chain_data import (
     ChainData,
     Sprocket,
     Wear,
@@ -26,7 +26,7 @@ from ptmcalc.machines.chain_drive.chain_data import (
     teeth_of,
     wrong_size,
 )
-from ptmcalc.machines.chain_drive.layout import Layout, TwoShafts
+from ptmcalc.machines.chain_drive.machine.layout import Layout, TwoShafts
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Force,

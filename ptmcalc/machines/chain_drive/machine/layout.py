@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.machines.chain_drive.chain_data import DrivenSprocket, TailSprocket, even
+from ptmcalc.machines.chain_drive.machine.chain_data import DrivenSprocket, TailSprocket, even
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Force,

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.laws import chain_fatigue, chain_selection
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.model import ChainLine, breaking_load, ends_at_tail
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.machine.model import ChainLine, breaking_load, ends_at_tail
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 
 SAFETY = {ConveyorLayout: (10.0, 7.0), TwoShafts: (7.0, 5.0)}
 """Required safety factors by default, static and in steady running [1]: for traction chains of the handbook range 7 to

@@ -15,8 +15,8 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.laws import belt_modes, chain_selection, held_strands, inertia, motor, sag, sprocket
 from ptmcalc.laws.held_strands import HeldStrands
 from ptmcalc.laws.loop_bounds import LoopMasses
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Drive
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene, Drive
 from ptmcalc.numerics.harmonic import parts
 
 FloatArray = NDArray[np.float64]

@@ -243,7 +243,7 @@ class TailSprocket(Fragment):
     1, or by the slip lines of equal motors"""
     synchronised: Literal["on", "off"] = "off"
     """`on`: a shaft or a control keeps both sprockets at one speed under any torque, in stops too; needed for the
-    tensions of starts by torque and of stops"""
+    tensions of starts by torque or on a motor curve, and of stops"""
     phase: Annotated[Fraction | None, Setting("the worst phase when left out")] = None
     """phase of the link joints of a driven one, relative to the drive; the worst phase when left out"""
 

@@ -46,6 +46,21 @@ def modal_tensions(loop: LoopMasses, frequencies: FloatArray, strand: int, x: Fl
     return chain_resonance.modal_tensions(loop, frequencies, strand, x)
 
 
+def drive_mobilities(loop: LoopMasses, frequencies: FloatArray) -> tuple[FloatArray, float]:
+    """Shares of the modes in the motion of the drive under a force at it, and of all others [1/kg]."""
+    if isinstance(loop, HeldStrands):
+        return held_strands.drive_mobilities(loop, frequencies)
+    return chain_resonance.drive_mobilities(loop, frequencies)
+
+
+def swung_mass(loop: LoopMasses, strand: int, x: FloatArray) -> FloatArray:
+    """Mass through which the energy of the accelerations bounds the tension at sections, shape (n,) [kg]."""
+    if isinstance(loop, HeldStrands):
+        return held_strands.swung_mass(loop, strand, x)
+    behind = loop_bounds.mass_behind(loop, strand, x)
+    return np.maximum(behind, loop.belt_mass - behind) if loop.fixed_length else behind
+
+
 def modal_shapes(loop: LoopMasses, frequencies: FloatArray, strand: int, x: FloatArray) -> FloatArray:
     """Tensions of the modes at sections, shape (k, n) [kg]."""
     if isinstance(loop, HeldStrands):
