@@ -74,7 +74,8 @@ def test_teeth_let_a_chain_go_slack(tension: str, teeth: str, said: Verdict) -> 
 
 
 def test_the_run_is_within_the_bound_of_both_limiting_drives() -> None:
-    spec = built(SCRAPER)
+    """The first level is the bound where it is finite: the chain stays taut by it."""
+    spec = built(SCRAPER | {"layout": SCRAPER["layout"] | {"takeup": {"type": "gravity", "tension": "30 kN"}}})
     (scene,) = spec.all_scenes
     wide, close, closer = (
         MOTOR_TEETH.run(spec, scene, MOTOR_TEETH.always, level).loads["tension_dynamic_start"].estimate
@@ -84,6 +85,19 @@ def test_the_run_is_within_the_bound_of_both_limiting_drives() -> None:
     assert closer.high - closer.low < (close.high - close.low) / 2
     assert close.low <= closer.high
     assert closer.low <= close.high
+
+
+def test_a_bound_that_allows_slack_is_no_result() -> None:
+    """A check on its own, as a search for a repair asks it, is decided by the run."""
+    spec = built(SCRAPER)
+    (scene,) = spec.all_scenes
+    first, second = (MOTOR_TEETH.run(spec, scene, MOTOR_TEETH.always, level).loads for level in (0, 1))
+    assert {name: one.estimate for name, one in first.items()} == {name: one.estimate for name, one in second.items()}
+    data = SCRAPER | {"chain": SCRAPER["chain"] | {"breaking_load": "90 kN"}}
+    one = check_of(scene_of(report_of(data, repairs=True)), "CHN122")
+    assert one.repair is not None
+    assert one.repair.path == ("chain", "breaking_load")
+    assert 150e3 < one.repair.value < 156e3
 
 
 def test_its_course_has_the_largest_tension() -> None:

@@ -10,6 +10,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
 from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY
+from ptmcalc.machines.chain_drive.machine.alike import moving_alike
 from ptmcalc.machines.chain_drive.machine.model import FloatArray, has_driven_tail
 from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.polygon.excitation import residual
@@ -137,13 +138,18 @@ def _marched(spec: ChainDrive, scene: Start, level: int) -> _Marched | None:
     return _Marched(start, sections, _places(start, sections), plan, pitch, polygon_ahead(spec))
 
 
-@kept_for(16)
 def coupled_teeth(spec: ChainDrive, scene: Start, level: int) -> Coupled | None:
     """The teeth of the driving sprocket in one run with chain and motors; None where they are not.
 
     Raises:
         NumericsError: NUM101 where the start takes too many steps.
     """
+    return _coupled_teeth(*moving_alike(spec, scene), level)
+
+
+@kept_for(16)
+def _coupled_teeth(spec: ChainDrive, scene: Start, level: int) -> Coupled | None:
+    """The same of the machine that represents all that move alike."""
     whole = _marched(spec, scene, level)
     if whole is None:
         return None

@@ -10,6 +10,7 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.chain_drive.machine.alike import moving_alike
 from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.speed_change.coupled_teeth import Coupled, coupled_cost, coupled_teeth, entering
 from ptmcalc.machines.chain_drive.speed_change.teeth import Passing, curve_passings
@@ -43,13 +44,18 @@ _ALONG = 80
 """Sections for the predicted cost; a numerical choice. No load depends on it."""
 
 
-@kept_for(16)
 def curve_teeth_simulated(spec: ChainDrive, scene: Start, level: int) -> tuple[TeethAlone, ...]:
     """What the teeth of a start on a motor curve change, from its beginning up to the end of each of its parts.
 
     Raises:
         NumericsError: NUM102 where the rigid chain is not followed.
     """
+    return _curve_teeth_simulated(*moving_alike(spec, scene), level)
+
+
+@kept_for(16)
+def _curve_teeth_simulated(spec: ChainDrive, scene: Start, level: int) -> tuple[TeethAlone, ...]:
+    """The same of the machine that represents all that move alike."""
     passings = curve_passings(spec, scene, _MODES << level)
     if not passings:
         raise NumericsError("NUM102", "the motors do not bring the rigid chain to a steady speed")
@@ -73,8 +79,9 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
 
     x is the motion of the entering chain, x_d that of its sprocket, which the motors follow, u the polygon motion, m_d
     the mass of the drive. Chain, drive and motors run together, tooth after tooth, for several places of the first
-    joint. Before that a bound is tried, and it is all there is with a screw take-up, where both ends of the chain are
-    on the teeth, with a driven tail, and for starts with very many teeth:
+    joint. Before that a bound is tried, which is the result of the first level where it is finite. It is all there is
+    with a screw take-up, where both ends of the chain are on the teeth, with a driven tail, and for starts with very
+    many teeth:
 
         S = S_motor +- (|S_m| + |S_v|),   part by part of the start
 
@@ -88,9 +95,13 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
     difference from half as many; that of `chain_motor_waves` and the sum where the teeth do not run with the motors.
     **Source** derived in `numerics.toothed_modes`; `numerics.run_through`; derived in `teeth.curve_teeth`.
     """
-    found = coupled_teeth(spec, scene, level - 1) if level else None
-    result = _limiting(spec, scene, min(level, 1)) if found is None else _together(spec, scene, level - 1, found)
-    return beyond_slack(spec, result, "CHN123")
+    if level and (found := coupled_teeth(spec, scene, level - 1)) is not None:
+        return beyond_slack(spec, _together(spec, scene, level - 1, found), "CHN123")
+    bound = beyond_slack(spec, _limiting(spec, scene, min(level, 1)), "CHN123")
+    finite = all(one.estimate.bounded for one in bound.loads.values())
+    if level or finite or (found := coupled_teeth(spec, scene, 0)) is None:
+        return bound
+    return beyond_slack(spec, _together(spec, scene, 0, found), "CHN123")
 
 
 def _together(spec: ChainDrive, scene: Start, level: int, found: Coupled) -> Result:

@@ -14,6 +14,7 @@ from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.alike import moving_alike
 from ptmcalc.machines.chain_drive.machine.model import FloatArray, shares_torque
 from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
@@ -153,7 +154,7 @@ def judged(spec: ChainDrive, scene: Start, level: int) -> Judged:
     Raises:
         NumericsError: NUM101 where it takes too many steps.
     """
-    found = _judged(spec, scene, level)
+    found = _judged(*moving_alike(spec, scene), level)
     if isinstance(found, NumericsError):
         raise found
     return found
