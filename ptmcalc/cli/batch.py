@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Self
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.output import say
-from ptmcalc.cli.progress import shown
 from ptmcalc.contract.report import FileReport, Tally, tally, total
 from ptmcalc.engine import check as engine
 from ptmcalc.engine.check import Options
@@ -87,9 +86,17 @@ class Run:
             said = f"part {shard} of the run holds no file: it has {_files(len(chosen.files))}" if shard else ""
             say(f"ptmcalc: {said or 'the list names no file'}; nothing was checked\n", err=True)
         if len(named) < FEW and not self.store and self.jobs is None and self.executor == LOCAL:
-            with shown():
-                return (*told, *engine.check_paths(named, self.options))
+            return (*told, *self._few(named))
         return self.batch(named, told)
+
+    def _few(self, paths: Sequence[Path]) -> tuple[FileReport, ...]:
+        """The reports of some files, with a progress line on a terminal."""
+        if sys.stderr is None or not sys.stderr.isatty():
+            return engine.check_paths(paths, self.options)
+        from ptmcalc.cli.progress import shown  # for terminals
+
+        with shown():
+            return engine.check_paths(paths, self.options)
 
     def processes(self, number: int) -> int:
         """Processes of this machine for so many things to do that take as long as a process takes to begin."""

@@ -50,9 +50,9 @@ def decode(
     from ptmcalc.base import units
     from ptmcalc.contract.report import FileReport, exit_status
     from ptmcalc.engine.load import load_file
-    from ptmcalc.machines.shaft.model import machine_of
+    from ptmcalc.machines.shaft.machine.model import machine_of
+    from ptmcalc.machines.shaft.machine.spec import Shaft
     from ptmcalc.machines.shaft.records.decoding import decoded
-    from ptmcalc.machines.shaft.spec import Shaft
     from ptmcalc.report import Format as Plain
     from ptmcalc.report import render
     from ptmcalc.text.record import read_columns, rising

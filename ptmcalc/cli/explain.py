@@ -108,8 +108,15 @@ def explanation(name: str, form: str = "text") -> str:
     if (term := terms().get(folded(name))) is not None and name not in known:
         one = term.explanation
         return one.markdown if form == "markdown" else one.plain
-    wanted = known_as(name, known)
-    found = [make() for key, make in _everything() if key == wanted]
+    found: list[Explanation] = []
+    if name not in known and name.upper() not in known:
+        from ptmcalc.cli import laws  # reads the text of all formulas
+
+        found = laws.pages(name)
+        known |= laws.names()
+    if not found:
+        wanted = known_as(name, known)
+        found = [make() for key, make in _everything() if key == wanted]
     return "\n".join(one.markdown if form == "markdown" else one.plain for one in found)
 
 

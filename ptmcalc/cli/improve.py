@@ -9,7 +9,8 @@ from ptmcalc.cli.output import say
 from ptmcalc.cli.progress import shown
 from ptmcalc.cli.study import loaded_or_told
 from ptmcalc.contract.report import FileReport, exit_status
-from ptmcalc.engine.check import Key, Options, check
+from ptmcalc.engine.check import Options, check
+from ptmcalc.engine.ends import Key
 from ptmcalc.engine.improve import Answer, Cost, Improvement, Move, improve, wanted_of
 from ptmcalc.engine.levers import Lever, chosen, offered
 from ptmcalc.engine.load import Loaded

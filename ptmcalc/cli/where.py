@@ -34,7 +34,14 @@ def whereabouts(name: str = "") -> str:
         UsageError: nothing has that name.
     """
     everything = list(_everything())
-    wanted = known_as(name, {one: None for one, _ in everything}) if name else ""
+    known = {one: None for one, _ in everything}
+    if name and name not in known and name.upper() not in known:
+        from ptmcalc.cli import laws  # reads the text of all formulas
+
+        if found := laws.places(name):
+            return "".join(f"{line}\n" for line in found)
+        known |= laws.names()
+    wanted = known_as(name, known) if name else ""
     lines = [line for one, lines in everything if one == wanted or not name for line in lines()]
     return "".join(f"{line}\n" for line in dict.fromkeys(lines))
 

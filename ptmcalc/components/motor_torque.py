@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from ptmcalc.components.motor import AnyMotor, ConverterMotor, FloatArray, InductionBase
+from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase
+from ptmcalc.components.motor_stage import FloatArray
 
 _LOOKS = 1025
 """Even steps of the speed at which a curve is looked at, from rest on."""

@@ -8,7 +8,8 @@ import numpy as np
 
 from ptmcalc.base.estimate import Interval
 from ptmcalc.catalogue.table import rows
-from ptmcalc.components.motor import FloatArray, InductionMotor, Stage
+from ptmcalc.components.motor import InductionMotor
+from ptmcalc.components.motor_stage import FloatArray, Stage
 
 FREQUENCY = 50.0
 """Frequency of the supply [Hz] of a motor whose number of poles is given."""

@@ -2,7 +2,7 @@
 
 import math
 import os
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import date
@@ -19,7 +19,6 @@ from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import (
-    AssumedReport,
     Change,
     EffectReport,
     FileReport,
@@ -32,17 +31,16 @@ from ptmcalc.contract.report import (
     SolverReport,
 )
 from ptmcalc.contract.result import Finding, History
+from ptmcalc.engine.ends import Flips, Key, by_key, flips_of
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
-from ptmcalc.engine.plan import Plan, PlannedEffect, RungKey, plan
+from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.policy import ANY, Choice
 from ptmcalc.engine.purse import FilePurse
 from ptmcalc.engine.repair import Repairs
 from ptmcalc.engine.run import NO_MEMORY, WORK_BUDGET
 from ptmcalc.engine.settled import Run, Settled
-from ptmcalc.engine.solve import variants
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
-from ptmcalc.engine.waive import about_waivers, waived
 from ptmcalc.engine.widen import absent
 from ptmcalc.spec.alias import said_as_written
 from ptmcalc.spec.machine import MachineSpec
@@ -155,7 +153,7 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     for number, scene in enumerate(made.scenes, 1):
         step(f"scene {scene.scene.label} ({number} of {len(made.scenes)})")
         settled.append(purse.settle(kind, spec, scene))
-    flips = _flips(kind, spec, made, settled, loaded.assumed, purse)
+    flips = flips_of(kind, spec, made, settled, loaded.assumed, purse)
     diagnostics = (
         loaded.diagnostics
         + conflicts
@@ -167,10 +165,14 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     )
     repairs = Repairs(loaded, options.scenes, purse, partial(_again, options))
     scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options, repairs).scene() for scene in settled)
-    today = options.today or date.today()
-    diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
+    judged = scenes
+    if spec.waive:
+        from ptmcalc.engine.waive import about_waivers, waived
+
+        today = options.today or date.today()
+        diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
+        judged = waived(spec, scenes, today)
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
-    judged = waived(spec, scenes, today)
     diagnostics += tuple(_nothing_checked(loaded, judged))
     tables = kind.tables_of(spec, judged)
     project = spec.project.given if spec.project is not None else ()
@@ -204,7 +206,7 @@ def _again(
 
 def judged_again(
     options: Options, loaded: Loaded, wanted: Container[tuple[str, str]], purse: FilePurse
-) -> tuple["Mapping[Key, Ruling]", float]:
+) -> tuple[Mapping[Key, Ruling], float]:
     """How checks, by code and element, stand in a changed file with each assumed value at both ends, and the predicted
     seconds of the runs with the assumed values; none if the file is invalid."""
     kind, spec, made = loaded.kind, loaded.spec, planned_for(loaded, options)
@@ -213,10 +215,10 @@ def judged_again(
     if any(found.severity is Severity.ERROR for found in _conflicts(loaded, kind, spec, made, options)):
         return {}, 0.0
     settled = [purse.settle(kind, spec, scene, wanted) for scene in made.scenes]
-    flips = _flips(kind, spec, made, settled, loaded.assumed, purse)
+    flips = flips_of(kind, spec, made, settled, loaded.assumed, purse)
     rulings = {
         key: replace(ruling, verdict=Verdict.UNDECIDED) if key in flips else ruling
-        for key, ruling in _by_key(made, settled)
+        for key, ruling in by_key(made, settled)
     }
     return rulings, sum(scene.spent for scene in settled)
 
@@ -274,69 +276,6 @@ def chosen_scenes(spec: MachineSpec, names: tuple[str, ...]) -> list[Scene] | No
         if name not in scenes:
             raise UsageError(f"unknown scene `{name}`", f"scenes: {', '.join(scenes)}")
     return [scenes[name] for name in names]
-
-
-Key = tuple[str, str, str]
-"""Scene, code of a check, part of the machine."""
-Flips = Mapping[Key, tuple[AssumedReport, float, Verdict]]
-"""For a check: the assumed value that changes its verdict, the end of the interval, and the new verdict."""
-
-
-def _flips(
-    kind: AnyKind,
-    spec: MachineSpec,
-    made: Plan,
-    settled: list[Settled],
-    assumed: Iterable[AssumedReport],
-    purse: FilePurse,
-) -> Flips:
-    """Verdicts that change if an assumed value is at an end of its interval.
-
-    A passing check passes only if it does so at both ends; a failing check fails unless it passes at an end. An open
-    check, or one already changed by an earlier end, is not evaluated again, and runs whose loads do not depend on the
-    value are not made again. Runs that did not decide at an earlier end come last.
-    """
-    rulings = dict(_by_key(made, settled))
-    runs = {one.plan.scene.label: one.runs for one in settled}
-    base = {key: ruling.verdict for key, ruling in rulings.items()}
-    found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
-    later: dict[str, set[RungKey]] = {label: set() for label in runs}
-    for value, end, other in variants(spec, assumed):
-        left: dict[str, set[tuple[str, str]]] = {}
-        readers = {one.label for one in spec.all_scenes if value.read_in(one)}
-        for key, ruling in rulings.items():
-            settled_once = ruling.verdict in (Verdict.PASS, Verdict.FAIL) and key not in found
-            if settled_once and key[0] in readers and value.read_by(ruling.check):
-                left.setdefault(key[0], set()).add((key[1], key[2]))
-        if not left:
-            continue
-        step(f"assumption {dotted(value.path)} = {show(end, value.quantity)}")
-        again = plan(kind, other, [one for one in other.all_scenes if one.label in left])
-        same = {label: [run for run in runs[label] if not value.changes(run.result.loads)] for label in left}
-        ends = [
-            purse.settle(kind, other, one, left[label], same[label], later[label])
-            for one in again.scenes
-            for label in (one.scene.label,)
-        ]
-        for one in ends:
-            later[one.plan.scene.label].update(one.superseded)
-        found |= {
-            key: (value, end, ruling.verdict)
-            for key, ruling in _by_key(again, ends)
-            if _turns(base[key], ruling.verdict)
-        }
-    return found
-
-
-def _turns(verdict: Verdict, at_end: Verdict) -> bool:
-    """Whether a verdict changes with an assumed value at its end: a fail can only change into a pass."""
-    return at_end is Verdict.PASS if verdict is Verdict.FAIL else at_end is not verdict
-
-
-def _by_key(made: Plan, settled: list[Settled]) -> Iterator[tuple[Key, Ruling]]:
-    for scene, result in zip(made.scenes, settled, strict=True):
-        for ruling in result.rulings:
-            yield (scene.scene.label, ruling.check.code, ruling.check.element), ruling
 
 
 @dataclass(frozen=True, slots=True)

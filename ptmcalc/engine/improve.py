@@ -9,7 +9,8 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.progress import step
 from ptmcalc.contract.report import FileReport, Judgement
-from ptmcalc.engine.check import Key, Options, judged_again
+from ptmcalc.engine.check import Options, judged_again
+from ptmcalc.engine.ends import Key
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.levers import Lever
 from ptmcalc.engine.load import Loaded

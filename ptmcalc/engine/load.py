@@ -19,7 +19,6 @@ from ptmcalc.contract.machine import EVERYWHERE, AnyKind, Use
 from ptmcalc.contract.report import AssumedReport
 from ptmcalc.contract.result import Finding
 from ptmcalc.engine.registry import is_kind, kind_names, load_kind, load_type
-from ptmcalc.engine.spread import tolerance_problems
 from ptmcalc.spec.alias import said_as_written, with_keys
 from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
@@ -153,7 +152,7 @@ def _read(
     data = {**document.data, **asked}
     open_problems = list(islice(_open_key_problems(kind, data, document), MAX_FAULTS + 1))
     open_keys = {found.path for found in open_problems}
-    others = (_unknown_waivers(kind, data, document), tolerance_problems(kind.spec, data, document))
+    others = (_unknown_waivers(kind, data, document), _tolerance_problems(kind, data, document))
     found: Iterator[Diagnostic] = chain(open_problems, *others)
     spec = None
     try:
@@ -265,6 +264,13 @@ def _open_key_problems(kind: AnyKind, data: Mapping[str, Any], document: Documen
                 reason = f"unknown key {quote(dotted(path))}"
                 hint = unknown_key(key, limits, kind.spec, "keys here: the codes of checks, ")
             yield Diagnostic("SPC104", reason, document.key_span(path), path, hint)
+
+
+def _tolerance_problems(kind: AnyKind, data: Mapping[str, Any], document: Document) -> Iterator[Diagnostic]:
+    if "tolerances" in data:
+        from ptmcalc.engine.spread import tolerance_problems  # for files that have them
+
+        yield from tolerance_problems(kind.spec, data, document)
 
 
 def _unknown_waivers(kind: AnyKind, data: Mapping[str, Any], document: Document) -> Iterator[Diagnostic]:

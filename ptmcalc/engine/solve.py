@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from itertools import islice
 
@@ -15,7 +15,7 @@ from ptmcalc.contract.check import AnyCheck, Sense
 from ptmcalc.contract.report import AssumedReport
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, changed, measure_at
-from ptmcalc.engine.plan import plan_scene
+from ptmcalc.engine.plan import RungKey, plan_scene
 from ptmcalc.engine.run import settle
 from ptmcalc.spec.machine import MachineSpec
 
@@ -231,6 +231,8 @@ class _Search:
     """those asked about; all where there is none"""
     spare: Spare
     purse: SearchPurse
+    later: dict[str, set[RungKey]] = field(default_factory=dict)
+    """by scene, runs that did not decide at a value tried before: they come last at the next one"""
 
     def clearances(self, finest: float) -> list[Clearance]:
         """Of runs with so many refinements at most: of the machine as it is first."""
@@ -269,7 +271,9 @@ class _Search:
         kind = self.loaded.kind
         assert kind is not None
         scene = plan_scene(kind, spec, spec.all_scenes[index])
-        settled = settle(kind, spec, scene, only=self.check, until=lambda rung: rung.level <= finest)
+        later = self.later.setdefault(scene.scene.label, set())
+        settled = settle(kind, spec, scene, only=self.check, until=lambda rung: rung.level <= finest, later=later)
+        later.update(settled.superseded)
         self.purse.pay(settled.spent)
         return [self._of_ruling(ruling) for ruling in settled.rulings]
 

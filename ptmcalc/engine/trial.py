@@ -9,7 +9,7 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.progress import step
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Sense
-from ptmcalc.engine.check import Key
+from ptmcalc.engine.ends import Key
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.levers import Lever
 from ptmcalc.engine.load import Loaded

@@ -12,6 +12,8 @@ A_k^2 = m, and the Green's function of tension sum B_k^2 = G(x); Cauchy and Schw
 
 Where a torque is imposed, both sprockets with the drive are one mass m_s on which all strands hang. Only the modes that
 are even about the middle of a strand held at both ends move it, A_k = M u_s/G_k^(1/2), sum A_k^2 = M (M - m_s)/m_s.
+An end that is moved relative to its sprocket, as by teeth, excites the others too: the odd modes of a strand held at
+both ends, and strands of one frequency that pull the sprockets with equal and opposite forces.
 """
 
 from dataclasses import dataclass
@@ -72,9 +74,11 @@ def quasi_static(loop: HeldStrands, strand: int, x: ArrayLike) -> FloatArray:
 
 
 def tension_green(loop: HeldStrands, strand: int, x: ArrayLike) -> FloatArray:
-    """Tension at a section when the strand is opened there with unit relative acceleration, its ends at rest.
+    """Tension at a section when the strand is opened there with unit relative acceleration, its ends at rest, or on the
+    sprockets that yield where a torque is imposed.
 
         held at both ends: G = m (x^3 + (1 - x)^3)/3      free at its beginning: G = m x
+        torque imposed:    less (m (x - 1/2))^2/M         less (m x)^2/M
 
     Args:
         loop: the strands.
@@ -86,10 +90,11 @@ def tension_green(loop: HeldStrands, strand: int, x: ArrayLike) -> FloatArray:
 
     **Range** 0 <= x <= 1.
     **Error** exact.
-    **Source** kinetic power of the field x - H(x - s), as in `loop_bounds.tension_green`.
+    **Source** kinetic power of the field x - H(x - s), as in `loop_bounds.tension_green`, less that of its momentum.
     """
     mass, at = loop.mass_of(strand), np.asarray(x, float)
-    return np.asarray(mass * at if loop.free_end(strand) else mass * (at**3 + (1 - at) ** 3) / 3)
+    held = mass * at if loop.free_end(strand) else mass * (at**3 + (1 - at) ** 3) / 3
+    return np.asarray(held if loop.imposed_speed else held - quasi_static(loop, strand, at) ** 2 / loop.total_mass)
 
 
 def stray(loop: HeldStrands, strand: int, x: ArrayLike) -> FloatArray:
@@ -191,22 +196,57 @@ def modal_shapes(loop: HeldStrands, frequencies: FloatArray, strand: int, x: Flo
     """Tensions of the modes at sections as masses: B_k times the root of the moved mass.
 
         B_k = ((2 m)^(1/2)/q) cos(q x), q = k pi,    -((2 m)^(1/2)/q) sin(q x), q = (k - 1/2) pi
+        torque imposed: B_k of `modal_tensions` where the sprockets move, else that of a strand held at both ends, or of
+        both strands with equal and opposite forces
 
     Args:
         loop: the strands.
-        frequencies: the lowest ones, of `natural_frequencies`, shape (k,) [rad/s].
+        frequencies: the lowest ones, of `natural_frequencies`, of `all_frequencies` where the torque is imposed, shape
+            (k,) [rad/s].
         strand: RETURN or CARRY.
         x: fractions of the strand's length, shape (n,) [1].
 
     Returns:
         B_k M_belt^(1/2), shape (k, n) [kg].
 
-    **Range** the speed imposed.
-    **Error** exact.
+    **Range** 0 <= x <= 1.
+    **Error** rounding.
     **Source** module docstring; as in `chain_resonance.modal_shapes`.
     """
-    felt = _felt(loop, len(frequencies), strand, np.asarray(x, float))
-    return np.asarray(felt * np.sqrt(loop.belt_mass))
+    places, count = np.asarray(x, float), len(frequencies)
+    if loop.imposed_speed:
+        return np.asarray(_felt(loop, count, strand, places) * np.sqrt(loop.belt_mass))
+    moved, odd, opposed = _coupled(loop, count), _odd(loop, count), _opposed(loop, count)
+    felt = np.concatenate(
+        [
+            _moved_and_felt(loop, moved, strand, places)[1],
+            _felt_odd(loop, odd, strand, places),
+            _felt_opposed(loop, opposed, strand, places),
+        ]
+    )
+    order = np.argsort(np.concatenate([moved, odd[:, 0], opposed]), kind="stable")[:count]
+    return np.asarray(felt[order] * np.sqrt(loop.belt_mass))
+
+
+def all_frequencies(loop: HeldStrands, count: int) -> FloatArray:
+    """The lowest natural frequencies with the torque imposed, those of modes that leave the sprockets at rest included.
+
+        w of `natural_frequencies`;    k pi/t, k even, of a strand held at both ends;    the poles of both strands where
+        they are equal
+
+    Args:
+        loop: the strands, torque imposed.
+        count: how many.
+
+    Returns:
+        w in rising order, shape (count,) [rad/s].
+
+    **Range** the torque imposed.
+    **Error** rounding; poles of both strands within 1e-9 count as equal.
+    **Source** module docstring.
+    """
+    every = [_coupled(loop, count), _odd(loop, count)[:, 0], _opposed(loop, count)]
+    return np.sort(np.concatenate(every))[:count]
 
 
 def modal_rest(loop: HeldStrands, frequencies: FloatArray, strand: int, x: FloatArray) -> FloatArray:
@@ -241,6 +281,54 @@ def modal_rest(loop: HeldStrands, frequencies: FloatArray, strand: int, x: Float
     return np.asarray(np.sqrt(left * np.maximum(green - np.sum(felt**2, axis=0), 8 * _EPS * green)))
 
 
+def drive_mobilities(loop: HeldStrands, frequencies: FloatArray) -> tuple[FloatArray, float]:
+    """Shares of the modes of both strands and the drive in the motion of the sprockets under a force at them.
+
+        g_k = u_s^2/G,   sum over all modes = 1/m_s - 1/M
+
+    A force F at the sprockets accelerates them by F/M + sum g_k y_k'', with y_k'' + 2 zeta w y_k' + w^2 y_k = F.
+
+    Args:
+        loop: the strands, torque imposed.
+        frequencies: w, of the lowest modes, as in `modal_tensions`, shape (k,) [rad/s].
+
+    Returns:
+        g_k, shape (k,), and the sum of those of all other modes [1/kg].
+
+    **Range** the torque imposed; u_s is the amplitude of the sprockets, G the mass of the mode.
+    **Error** rounding of the frequencies.
+    **Source** derived: completeness of the modes at the sprockets, as in `chain_resonance.drive_mobilities`.
+    """
+    moved, _ = _moved_and_felt(loop, frequencies, CARRY, np.ones(1))
+    shares, strands = (moved / loop.total_mass) ** 2, loop.return_mass + loop.carry_mass
+    whole = strands / (loop.total_mass - strands) / loop.total_mass
+    return np.asarray(shares), max(whole - float(shares.sum()), 0.0)
+
+
+def swung_mass(loop: HeldStrands, strand: int, x: ArrayLike) -> FloatArray:
+    """Mass through which the energy of the accelerations bounds the tension of a section.
+
+        |S| <= (2 E m(s))^(1/2),   E = integral of a^2/2 over all masses
+        m(s) = m |2 x - 1|/4 held at both ends,    m x free at its beginning
+
+    Args:
+        loop: the strands.
+        strand: RETURN or CARRY.
+        x: fraction of the strand's length [1].
+
+    Returns:
+        m(s) [kg].
+
+    **Range** accelerations that are even about the middle of a strand held at both ends, which a force at the sprockets
+    excites alone; 0 <= x <= 1.
+    **Error** a bound.
+    **Source** S is the integral of m a from where the tension does not change; Cauchy and Schwarz, and half of the
+    energy of the strand is on either side of its middle.
+    """
+    mass, at = loop.mass_of(strand), np.asarray(x, float)
+    return np.asarray(mass * at if loop.free_end(strand) else mass * np.abs(2 * at - 1) / 4)
+
+
 def _moved_and_felt(
     loop: HeldStrands, frequencies: FloatArray, strand: int, x: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
@@ -268,11 +356,53 @@ def _impedance(loop: HeldStrands, strand: int) -> float:
     return loop.mass_of(strand) / loop.travel_time(strand)
 
 
-def _coupled(loop: HeldStrands, count: int) -> FloatArray:
-    """Frequencies of the modes that move the coupled sprockets: between two neighbours of their poles each."""
+def _poles(loop: HeldStrands, count: int) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Frequencies that held sprockets excite, in rising order, and whether each is lower than the next one."""
     order = np.arange(count + 2) + 0.5
     poles = np.sort(np.concatenate([order * np.pi / _turned(loop, strand) for strand in (RETURN, CARRY)]))
-    apart = np.diff(poles) > _APART * poles[:-1]
+    return poles, np.diff(poles) > _APART * poles[:-1]
+
+
+def _opposed(loop: HeldStrands, count: int) -> FloatArray:
+    """Frequencies at which both strands swing against each other and leave the sprockets at rest."""
+    poles, apart = _poles(loop, count)
+    return poles[:-1][~apart][:count]
+
+
+def _odd(loop: HeldStrands, count: int) -> FloatArray:
+    """Frequencies of the odd modes of strands held at both ends and their strands, shape (n, 2)."""
+    found = [
+        [2 * k * np.pi / loop.travel_time(strand), strand]
+        for strand in (RETURN, CARRY)
+        if not loop.free_end(strand)
+        for k in range(1, count + 1)
+    ]
+    return np.array(sorted(found)[:count])
+
+
+def _felt_odd(loop: HeldStrands, odd: FloatArray, strand: int, x: FloatArray) -> FloatArray:
+    """B_k of the modes of `_odd`, shape (k, n)."""
+    return np.where((odd[:, 1] == strand)[:, None], _felt_alone(loop, odd[:, 0], strand, x), 0.0)
+
+
+def _felt_opposed(loop: HeldStrands, w: FloatArray, strand: int, x: FloatArray) -> FloatArray:
+    """B_k of the modes of `_opposed`, shape (k, n): the shares of both strands are as the pulls of the other one."""
+    ends = np.array([0.0, 1.0])
+    back, working = (-np.diff(_felt_alone(loop, w, one, ends), axis=1) for one in (RETURN, CARRY))
+    share = (back if strand == CARRY else -working) / np.hypot(back, working)
+    return np.asarray(share * _felt_alone(loop, w, strand, x))
+
+
+def _felt_alone(loop: HeldStrands, w: FloatArray, strand: int, x: FloatArray) -> FloatArray:
+    """B_k of modes of one strand whose sprockets are at rest, shape (k, n)."""
+    angle = (w * loop.travel_time(strand))[:, None]
+    shape = -np.sin(angle * x) if loop.free_end(strand) else np.cos(angle * x)
+    return np.asarray(np.sqrt(2 * loop.mass_of(strand)) / angle * shape)
+
+
+def _coupled(loop: HeldStrands, count: int) -> FloatArray:
+    """Frequencies of the modes that move the coupled sprockets: between two neighbours of their poles each."""
+    poles, apart = _poles(loop, count)
     low, high = poles[:-1][apart][:count], poles[1:][apart][:count]
     mass = loop.total_mass - loop.return_mass - loop.carry_mass
     for _ in range(_HALVINGS):

@@ -54,6 +54,8 @@ _MISSED = 0.1
 """What may lie between two samples relative to what may be left at the end [1]; it is in the bounds."""
 _ROUNDED = 1e-6
 """Share of a step by which times differ that are one [1]: rounding."""
+_SAME = 1e-9
+"""The same for kinks of the force [1]."""
 _CRITICAL = 0.9
 """Damping ratio above which the envelope of a critically damped mode is used [1]."""
 
@@ -77,11 +79,11 @@ def follow(body: Body, gear: Gear, drive: Drive, places: Places, plan: Plan) -> 
     Raises:
         NumericsError: NUM101 where the march needs more than `plan.most` steps and what comes after is not bounded.
     """
-    return _March(body, gear, drive, places, plan).go()
+    return March(body, gear, drive, places, plan).go()
 
 
 @dataclass(frozen=True, slots=True)
-class _Step:
+class Step:
     """Maps of a step: of (y, y', f) to what the state, the speed and the elastic acceleration are without the new
     force, and what this adds."""
 
@@ -92,7 +94,7 @@ class _Step:
     acceleration: float
 
 
-class _March:
+class March:
     def __init__(self, body: Body, gear: Gear, drive: Drive, places: Places, plan: Plan) -> None:
         self.body, self.gear, self.drive, self.places, self.plan = body, gear, drive, places, plan
         self.w, self.zeta = body.frequencies, body.damping_ratios
@@ -100,7 +102,7 @@ class _March:
         self.light = 1 / body.mass + float(self.felt.sum())  # what a force accelerates at once
         self.state = np.zeros(2 * len(self.w) + 1)  # y, y', f
         self.time, self.rigid, self.stage = plan.begin, 0.0, 0
-        self.steps: dict[float, _Step] = {}
+        self.steps: dict[float, Step] = {}
         count = len(places.whole)
         self.found = Followed.of(count, len(self.w), len(plan.marks) + 1)
         self.total = self.decaying = self.slope = 0.0
@@ -115,7 +117,7 @@ class _March:
         found, until = self.found, math.inf
         while True:
             step = self._longest()
-            marks = [mark for mark in self.plan.marks if mark > self.time]
+            marks = [mark for mark in self.plan.marks if mark > self.time + _ROUNDED * step]
             length = min([self._next() - self.time, _CHUNK * step, max(until - self.time, 0.0)])
             length = min([length, *(mark - self.time for mark in marks)])
             count = max(math.ceil(length / step * (1 - 1e-12)), 1)
@@ -140,7 +142,7 @@ class _March:
 
     def _next(self) -> float:
         """Next time at which the force or its slope jumps."""
-        ahead = [kink for kink in self.drive.kinks if kink > self.time]
+        ahead = [kink for kink in self.drive.kinks if kink > self.time + _SAME * self.plan.step]
         return min([*ahead, self.drive.until(self.stage)[1]])
 
     def _longest(self) -> float:
@@ -148,7 +150,7 @@ class _March:
         steep = self.drive.steepest(self.stage)
         return min(self.plan.step, self.plan.response * self.body.drive_mass / steep) if steep > 0 else self.plan.step
 
-    def _map(self, length: float) -> _Step:
+    def _map(self, length: float) -> Step:
         """The maps of a step, which are kept: most steps are equally long."""
         found = self.steps.get(length)
         if found is None:
@@ -158,7 +160,7 @@ class _March:
             self.steps[length] = found
         return found
 
-    def _mapped(self, h: float) -> _Step:
+    def _mapped(self, h: float) -> Step:
         w, zeta, k = self.w, self.zeta, len(self.w)
         e = free_motion(w, zeta, np.array([h]))
         # the motion that a force keeps up: ((f - 2 zeta f'/w)/w^2, f'/w^2)
@@ -180,11 +182,13 @@ class _March:
         free[2 * k, 2 * k] += h / 2 / self.body.mass
         free[2 * k + 1] = -held_back @ free[: 2 * k]
         speed = h / 2 / self.body.mass + float(self.felt @ new[k:])
-        return _Step(h, free, new, speed, self.light - float(held_back @ new))
+        return Step(h, free, new, speed, self.light - float(held_back @ new))
 
-    def _solve(self, time: float, speed: float, gain: float, acceleration: float, more: float) -> float:
+    def _solve(
+        self, time: float, speed: float, gain: float, acceleration: float, more: float, near: float | None = None
+    ) -> float:
         """The force that fits the speed `speed + gain f` and the acceleration `acceleration + more f` [N]."""
-        gear, force = self.gear, float(self.state[-1])
+        gear, force = self.gear, float(self.state[-1]) if near is None else near
         base, through = gear.static - gear.mass * acceleration, 1 - gear.mass * more
 
         def off(f: float) -> tuple[float, float]:
@@ -251,7 +255,7 @@ class _March:
         elif self.time >= switch[1] * (1 - 1e-12):
             self.stage += 1
             self._enter()
-        elif any(abs(kink - self.time) <= 1e-9 * self.plan.step for kink in self.drive.kinks):
+        elif any(abs(kink - self.time) <= _SAME * self.plan.step for kink in self.drive.kinks):
             self._enter()
         return made + 1
 
@@ -271,7 +275,7 @@ class _March:
         """The part of a step up to the speed at which the next stage begins, and the force behind it."""
         k, before = len(self.w), self.state.copy()
 
-        def reached(part: float) -> tuple[float, float, FloatArray, _Step]:
+        def reached(part: float) -> tuple[float, float, FloatArray, Step]:
             step = self._mapped(part)
             out = step.free @ before
             free = self.rigid + float(out[2 * k])

@@ -18,7 +18,7 @@ from support.machines import changed, template
 from ptmcalc import __version__
 from ptmcalc.engine import check as engine
 from ptmcalc.engine.registry import kind_names, load_kind
-from ptmcalc.machines.conveyor.spec import Start
+from ptmcalc.machines.conveyor.machine.scenes import Start
 from ptmcalc.text.document import parse
 
 SPECS = Path(__file__).parent / "specs"

@@ -32,9 +32,10 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.model import belt_line, starting_force
-from ptmcalc.machines.conveyor.motion import AFTER_START, moving
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.machine.model import belt_line, starting_force
+from ptmcalc.machines.conveyor.machine.motion import AFTER_START, moving
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.waves import cell_loads, cell_runs, network
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.waves.effects import damping, idlers, moving_belt, takeup

@@ -14,7 +14,7 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import ScenePlan, plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 
 ON_TRIAL = {
     "chain_drive": (

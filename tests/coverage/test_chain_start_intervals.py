@@ -27,7 +27,7 @@ from support.chain_starts import KIND, built, profile, random_chain
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import ScenePlan, plan_scene
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.speed_change.tooth_passes import RANGE, START_TEETH
 from ptmcalc.machines.chain_drive.starting.breakaway import BREAKAWAY
 from ptmcalc.machines.chain_drive.starting.motion import start_case

@@ -28,7 +28,7 @@ from support.chain_starts import KIND, built, random_chain
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import NOTHING, Estimate
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.starting.bounds import loads_of
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, start_case
 

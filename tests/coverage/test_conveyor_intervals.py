@@ -17,8 +17,8 @@ from ptmcalc.engine.plan import ScenePlan, plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.engine.run import settle
 from ptmcalc.engine.settled import Settled
-from ptmcalc.machines.conveyor.spec import Conveyor
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 from ptmcalc.machines.conveyor.starting.rigid import RIGID
 from ptmcalc.machines.conveyor.waves.two_interval import TWO_INTERVAL
 

@@ -17,7 +17,7 @@ from support.held_fem import Motion, moved_by_ends, on_one_shaft, profile, teeth
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import plan_scene
-from ptmcalc.machines.chain_drive.strength import safety
+from ptmcalc.machines.chain_drive.machine.strength import safety
 
 ALWAYS = 6
 MESHES = (16, 1.0), (32, 0.5)
@@ -188,18 +188,19 @@ def stepped(machine: Machine, force: float, toothed: bool, window: float, pieces
     }
 
 
-@pytest.mark.parametrize("toothed", [False, True])
+@pytest.mark.parametrize("way", ["waves", "bounded teeth", "teeth"])
 @pytest.mark.parametrize("index", [1, 2, 3, *(pytest.param(k, marks=pytest.mark.study) for k in range(4, MACHINES))])
-def test_the_bar_of_a_start_by_torque_with_a_driven_tail_holds(index: int, toothed: bool) -> None:
+def test_the_bar_of_a_start_by_torque_with_a_driven_tail_holds(index: int, way: str) -> None:
     """Both sprockets and the drive are one mass, which a step of force brings to its speed."""
+    toothed = way != "waves"
     machine = random_machine(index, synchronised=True, type="start")
     arm = machine.pitch * machine.teeth[0] / (2 * math.pi)
     pull = machine.pull
     force = abs(pull) * float(np.random.default_rng((SEED, 3, index)).uniform(0.3, 1.0))
     machine.data["drive"]["motor"]["mean_starting_torque"] = f"{(pull + force) * arm / 40!r} N*m"
-    spec = built(machine.data | {"effects": {} if toothed else {"tooth_passing": "off"}})
+    spec = built(machine.data | {"effects": WAYS[way][1]})
     (scene,) = spec.all_scenes
-    solver = next(one for one in KIND.solvers if one.name == "chain_start_waves")
+    solver = next(one for one in KIND.solvers if one.name == WAYS[way][0])
     claims = claim_of(plan_scene(KIND, spec, scene), spec, solver, solver.always, 0)
     result = solver.run(spec, scene, solver.always, 0)
     assert result.window is not None
@@ -211,6 +212,37 @@ def test_the_bar_of_a_start_by_torque_with_a_driven_tail_holds(index: int, tooth
         if one.bounded:
             assert one.low - slack <= value <= one.high + slack, (name, one)
     assert claims["tension_min"].low <= 0 or claims["tension_start"].bounded
+
+
+# -- ranges of speeds -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("level", [0, 1])
+@pytest.mark.parametrize("index", [1, 2, 3, 4, *(pytest.param(k, marks=pytest.mark.study) for k in range(5, MACHINES))])
+def test_the_bar_of_a_speed_range_with_a_driven_tail_holds(index: int, level: int) -> None:
+    """Both sprockets are turned faster or slower at a constant rate; the worst of all places of the joints counts."""
+    rng = np.random.default_rng((SEED, 13, index))
+    first, last, time = float(rng.uniform(0.1, 0.4)), float(rng.uniform(0.1, 0.4)), float(rng.uniform(1.0, 4.0))
+    scene_data = {"from": f"{first!r} m/s", "to": f"{last!r} m/s", "time": f"{time!r} s"}
+    machine = random_machine(index, type="speed_range", **scene_data)
+    spec = built(machine.data)
+    (scene,) = spec.all_scenes
+    solver = next(one for one in KIND.solvers if one.name == "chain_run_through")
+    claim = claim_of(plan_scene(KIND, spec, scene), spec, solver, solver.always, level)["tension_speed_range"]
+    bar, (head, tail), rate = machine.working, machine.teeth, (last - first) / time
+    element = bar.length / 32 * math.sqrt(bar.line_mass / bar.stiffness)
+    times = np.arange(0.0, time, element / 2)
+    gained: Motion = (rate * times**2 / 2, rate * times, np.full_like(times, rate))
+    still: Motion = (np.zeros_like(times), np.zeros_like(times), np.zeros_like(times))
+    whole: Motion = (first * times + gained[0], first + gained[1], gained[2])
+    leads = [k / LEADS for k in range(LEADS)]
+    near = [total(gained, teeth(whole, machine.pitch, head, lead)) for lead in leads] + [still] * LEADS
+    far = [gained] * LEADS + [teeth(whole, machine.pitch, tail, lead) for lead in leads]
+    found = moved_by_ends(bar, 32, float(times[1]), stacked(far), stacked(near), running=True)[:, -1]
+    worst = max(float((found[:, i] + found[:, LEADS + j]).max()) for i in range(LEADS) for j in range(LEADS))
+    assert claim.bounded
+    assert claim.low * 0.98 <= max(worst, 0.0) <= claim.high * 1.02
+    assert level == 0 or claim.high <= 3 * max(worst, 1e-3 * machine.static[1][1])
 
 
 # -- stops ----------------------------------------------------------------------------------------------------------

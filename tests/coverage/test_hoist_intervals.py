@@ -34,6 +34,7 @@ from ptmcalc.contract.effect import AnyEffect
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
+from ptmcalc.machines.hoist.machine.spec import Hoist
 from ptmcalc.machines.hoist.motion import scene as motion
 from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.effects import ALWAYS, ROPE_MASS, ROPE_SHORTENING
@@ -41,7 +42,6 @@ from ptmcalc.machines.hoist.motion.hoist_train import TRAIN
 from ptmcalc.machines.hoist.motion.rope_hauled import ROPE_HAULED
 from ptmcalc.machines.hoist.motion.rope_waves import ROPE_WAVES
 from ptmcalc.machines.hoist.motion.two_mass import TWO_MASS
-from ptmcalc.machines.hoist.spec import Hoist
 
 ON_TRIAL = {
     "hoist": (

@@ -10,7 +10,7 @@ from support.machines import spec_of
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.engine.run import settle
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 KIND = load_kind("conveyor")
 SEED, MACHINES = 77, 18

@@ -14,9 +14,9 @@ import pytest
 from support.conveyors import random_conveyor, text
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.conveyor.model import belt_line
-from ptmcalc.machines.conveyor.motion import moving
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.model import belt_line
+from ptmcalc.machines.conveyor.machine.motion import moving
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.waves import cell_runs
 from ptmcalc.machines.conveyor.waves.effects import moving_belt
 from ptmcalc.machines.conveyor.waves.effects.moving_belt import TRAVEL_THRESHOLD, belt_travel

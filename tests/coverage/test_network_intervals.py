@@ -15,7 +15,7 @@ from support.machines import spec_of
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.machine.motion import moving
 from ptmcalc.machines.conveyor.waves import cell_runs, network
 
 ON_TRIAL = {"conveyor": ("network", "running_network")}

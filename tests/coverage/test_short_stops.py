@@ -16,7 +16,7 @@ from support.machines import check_of, load_of, report_of, scene_of, spec_of
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, moving, rounds
+from ptmcalc.machines.conveyor.machine.motion import MOST_ROUNDS, moving, rounds
 from ptmcalc.machines.conveyor.stopping import stiff_bounds
 
 ON_TRIAL = {"conveyor": ("stiff_stop",)}

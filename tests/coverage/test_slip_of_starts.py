@@ -16,8 +16,9 @@ from support.machines import changed, spec_of
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Result, of
-from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.machine.loads import PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.waves import characteristics
 
 TWINS = tuple(sorted(PER_DRIVE - SLIPS))

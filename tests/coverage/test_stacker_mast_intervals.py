@@ -29,11 +29,11 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast.beam import MAST_BEAM
 from ptmcalc.machines.crane.stacking.mast.modal import MAST_MODAL
 from ptmcalc.machines.crane.stacking.mast.two_mass_run import MAST_TWO_MASS
 from ptmcalc.machines.crane.stacking.mechanisms.drive_times import DRIVE_TIMES
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 ON_TRIAL = {
     "crane": (

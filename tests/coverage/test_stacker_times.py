@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from support.machines import loaded
 
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast.modal import MAST_MODAL
 from ptmcalc.machines.crane.stacking.mechanisms import starts
-from ptmcalc.machines.crane.stacking.scenes import Brake, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 COUNT = 12
 WORDS = ("trolley", "travel", "bridge")

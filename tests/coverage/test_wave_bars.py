@@ -29,9 +29,9 @@ from support.conveyors import random_conveyor, text
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT
-from ptmcalc.machines.conveyor.spec import Conveyor
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine.loads import DRIVE, OF_BELT
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 from ptmcalc.machines.conveyor.waves import start_intervals
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.waves.effects import sag, tail

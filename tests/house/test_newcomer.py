@@ -10,7 +10,7 @@ from support.each import over
 from ptmcalc.engine.load import load_file
 from ptmcalc.engine.plan import plan
 from ptmcalc.engine.run import settle
-from ptmcalc.machines.conveyor.model import drive_force
+from ptmcalc.machines.conveyor.machine.model import drive_force
 
 GUIDE = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 PAGE = (ROOT / "docs" / "architecture.md").read_text("utf-8")

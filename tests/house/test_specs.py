@@ -44,6 +44,7 @@ MOST_EVALUATIONS = {
     "hoist.yaml": 30_000,
     "hoist/crane_hoist_converter.yaml": 20_000,
     "hoist/crane_hoist_m5.yaml": 40_000,
+    "hoist/rope_proofs.yaml": 20,
     "hoist/winding_paper/height_25_rope_17_5.yaml": 10,
     "hoist/winding_paper/height_30_rope_17_5.yaml": 10,
     "hoist/winding_paper/height_35_rope_17_5.yaml": 10,

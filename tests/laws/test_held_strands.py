@@ -142,3 +142,93 @@ def test_a_step_of_force_on_coupled_sprockets_strays_by_the_bound_at_most(fixed:
         assert np.all(off <= bound + 0.03 * one.mass_of(strand) * math.sqrt(whole / sprockets))
         if strand == CARRY and sprockets > 10 * 3750.0:  # as if their speed were imposed
             assert off[-1] >= 0.8 * bound[-1]
+
+
+# -- coupled sprockets and moved ends ---------------------------------------------------------------------------------
+
+
+def elements(one: HeldStrands, bars: tuple[Bar, Bar], pieces: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mass and stiffness of strands on sprockets that are one mass, and where their nodes are gathered."""
+    count = pieces + 1
+    mass, stiff = np.zeros((2 * count, 2 * count)), np.zeros((2 * count, 2 * count))
+    for k, bar in enumerate(bars):
+        part = slice(k * count, (k + 1) * count)
+        mass[part, part], stiff[part, part] = bar.matrices(pieces)
+    coupled = [pieces, count, 2 * count - 1] + ([0] if one.fixed_length else [])
+    alone = [k for k in range(2 * count) if k not in coupled]
+    gather = np.zeros((2 * count, len(alone) + 1))
+    gather[alone, range(len(alone))] = 1
+    gather[coupled, -1] = 1
+    whole = gather.T @ mass @ gather
+    whole[-1, -1] += one.tail_mass + one.drive_mass
+    return whole, gather.T @ stiff @ gather, gather
+
+
+PAIRS = pytest.mark.parametrize("bars", [(BACK, WORKING), (WORKING, WORKING)])
+
+
+def of_bars(bars: tuple[Bar, Bar], fixed: bool, sprockets: float) -> HeldStrands:
+    masses, springs = ([one.length * one.line_mass for one in bars], [one.length / one.stiffness for one in bars])
+    return HeldStrands(*masses, 80.0, sprockets - 80.0, *springs, fixed, False)
+
+
+@FIXED
+@PAIRS
+@pytest.mark.parametrize("sprockets", [400.0, 4000.0])
+def test_all_modes_of_coupled_sprockets_are_those_of_finite_elements(
+    fixed: bool, bars: tuple[Bar, Bar], sprockets: float
+) -> None:
+    """Frequencies, mobilities, and the products of tensions B_k(s) B_k(r), whose sums over equal frequencies do not
+    depend on the choice of the modes."""
+    one, pieces, modes = of_bars(bars, fixed, sprockets), 120, 8
+    whole, stiff, gather = elements(one, bars, pieces)
+    squares, shapes = eigh(stiff, whole, subset_by_index=[1, modes])
+    w = held_strands.all_frequencies(one, modes)
+    assert w == pytest.approx(np.sqrt(squares), rel=2e-3)
+    places, stretched, found = (np.arange(pieces) + 0.5) / pieces, [], []
+    for strand, bar in ((RETURN, bars[0]), (CARRY, bars[1])):
+        nodes = (gather @ shapes)[strand * (pieces + 1) : (strand + 1) * (pieces + 1)]
+        stretched.append(np.diff(nodes, axis=0) * bar.stiffness * pieces / bar.length / squares)
+        found.append(held_strands.modal_shapes(one, w, strand, places).T / math.sqrt(one.belt_mass))
+    felt, known = np.concatenate(found), np.concatenate(stretched)
+    groups = np.split(np.arange(modes), np.flatnonzero(np.diff(w) > 1e-3 * w[:-1]) + 1)
+    for group in groups[:-1]:  # the last one may continue
+        assert felt[:, group] @ felt[:, group].T == pytest.approx(
+            known[:, group] @ known[:, group].T, abs=1e-2 * one.belt_mass
+        )
+    shares, rest = held_strands.drive_mobilities(one, held_strands.natural_frequencies(one, 3))
+    moved = shapes[-1][np.abs(shapes[-1]) > 1e-2 * np.abs(shapes[-1]).max()] ** 2
+    assert shares[: len(moved)] == pytest.approx(moved[:3], rel=1e-2)
+    assert rest == pytest.approx(1 / sprockets - 1 / one.total_mass - shares.sum(), rel=1e-9)
+
+
+@FIXED
+@STRANDS
+@PAIRS
+def test_all_modes_of_coupled_sprockets_sum_up_to_the_green_function(
+    fixed: bool, strand: int, bars: tuple[Bar, Bar]
+) -> None:
+    one = of_bars(bars, fixed, 2000.0)
+    shapes = held_strands.modal_shapes(one, held_strands.all_frequencies(one, 3000), strand, X)
+    green = (shapes**2).sum(axis=0) / one.belt_mass
+    assert green == pytest.approx(held_strands.tension_green(one, strand, X), abs=1e-3 * one.mass_of(strand))
+
+
+@FIXED
+@STRANDS
+def test_the_energy_of_accelerations_bounds_the_tension(fixed: bool, strand: int) -> None:
+    """Random sums of modes that move the sprockets; close to the bound for the field that reaches it."""
+    one, rng = of_bars((BACK, Bar(30.0, 60.0, 6e7, 0.0)), fixed, 2000.0), np.random.default_rng(3)
+    w = held_strands.natural_frequencies(one, 400)
+    shares, _ = held_strands.drive_mobilities(one, w)
+    gains = held_strands.modal_tensions(one, w, strand, X) / one.total_mass  # tension per d_k
+    bound = held_strands.swung_mass(one, strand, X)
+    for _ in range(50):
+        d = rng.normal(size=400) / np.arange(1, 401)
+        rigid = float(rng.normal())
+        twice = one.total_mass * rigid**2 + float(shares @ d**2)
+        swung = rigid * held_strands.quasi_static(one, strand, X) + d @ gains
+        assert np.all(swung**2 <= twice * bound * (1 + 1e-9) + 1e-9)
+    best = one.total_mass * (held_strands.quasi_static(one, strand, X) / one.total_mass) ** 2
+    best = best + np.sum(gains**2 / shares[:, None], axis=0)
+    assert best == pytest.approx(bound, abs=2e-3 * one.mass_of(strand))

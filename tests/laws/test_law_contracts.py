@@ -40,6 +40,7 @@ from ptmcalc.laws import (
     classification,
     contact_damping,
     coulomb,
+    drum_shell,
     duty,
     equalising,
     fork,
@@ -67,6 +68,8 @@ from ptmcalc.laws import (
     resistance,
     response,
     rope_drum,
+    rope_life,
+    rope_proof,
     rope_rod,
     runway_actions,
     safety_gear,
@@ -195,6 +198,8 @@ MASTS = (
     Mast(6.0, 4.2e7, 1200.0, np.inf, 1800.0),
     Mast(6.0, 4.2e7, 1200.0, 4e3, 1800.0, 0.0, 3e-8, 0.0, 0.7, 80.0, 4e5),
 )
+
+BENDING = rope_life.Constants(1.3, 1.29, 8.149, -3.635)
 
 CALLS: dict[Law, list[tuple[Any, ...]]] = {
     belt_damping.kelvin_voigt_change: [(0.7, 0.02)],
@@ -330,6 +335,11 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     held_strands.modal_tensions: HELD_MODES,
     held_strands.modal_shapes: HELD_MODES,
     held_strands.modal_rest: HELD_MODES,
+    held_strands.all_frequencies: [(loop, 5) for loop in HELD if not loop.imposed_speed],
+    held_strands.drive_mobilities: [
+        (loop, held_strands.natural_frequencies(loop, 3)) for loop in HELD if not loop.imposed_speed
+    ],
+    held_strands.swung_mass: HELD_SECTIONS,
     pendulum.swing_frequency: [(7.0, 9.81)],
     pendulum.swing_period: [(7.0, 9.81, 0.0), (7.0, 9.81, 1.2)],
     pendulum.driven_frequency: [(7.0, 9.81, 5e3, 2e3)],
@@ -632,6 +642,22 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     wire_rope.metallic_area: [(0.0175, 0.5)],
     wire_rope.hook_stiffness: [(1.05e11, 1.14e-4, 4, 2, 27.0)],
     wire_rope.rope_safety: [(9e4, 1.3e4), (9e4, 0.0)],
+    rope_life.diameter_factor: [(0.02,)],
+    rope_life.length_factor: [(12.0, 0.016), (0.1, 0.016)],
+    rope_life.bending_number: [(2.5e4, 0.016, 22.0, 1.96e9, BENDING, 0.8), (0.0, 0.016, 22.0, 1.96e9, BENDING, 0.8)],
+    rope_life.reversed_number: [(9e4, 9.026, 0.618), (10.0, 9.026, 0.618)],
+    rope_life.wire_breaks: [(2.5e4, 0.016, 22.0, rope) for rope in ("FC-8x19", "34x7")],
+    rope_life.discard_force: [(0.016, 22.0, "FC-8x19", wires) for wires in (8.0, 40.0)],
+    rope_proof.static_resistance: [(22.0,), (11.2,), (5.0,)],
+    rope_proof.history: [(np.array([0.3, 0.7]), np.array([1.0, 0.4]), 3e5, 5e5)],
+    rope_proof.fatigue_resistance: [(1.6e5, 0.9, 7.0, 0.2), (1.6e5, 0.9, 7.0, 0.0)],
+    drum_shell.yield_strength: [("S355", 0.02), ("S235", 0.05)],
+    drum_shell.layer_pressures: [(5, 0.144)],
+    drum_shell.pull_left: [(5, 0.144), (1, 0.144)],
+    drum_shell.edge_of_winding: [(np.array([0.0, 0.7, 2.0]),)],
+    drum_shell.single_wrap: [(4e4, 0.19, 0.02)],
+    drum_shell.equivalent_stress: [(np.array([3e7, -2e7]), np.array([-9e7, -8e7]), 5e6)],
+    drum_shell.flange_loads: [(np.array([1e6, 5e5]), np.array([0.2, 0.22, 0.25]), 0.2)],
     rope_drum.layer_step: [(0.0175, 0.0195, packing) for packing in PACKINGS],
     rope_drum.layer_radius: [(0.3, 0.0175, 0.0152, 3)],
     rope_drum.turns_in_layer: [(30.0, packing, 2) for packing in PACKINGS],
@@ -842,6 +868,11 @@ IN_PRINTED_UNITS = {
     lift_off_standard.stiffness_class,
     lift_off_standard.standard_lift_off_factor,
     lift_off_standard.fem_lift_off_factor,
+    rope_life.diameter_factor,
+    rope_life.bending_number,
+    rope_life.wire_breaks,
+    rope_life.discard_force,
+    drum_shell.yield_strength,
 }
 """Laws whose numbers belong to units that are mixed in print: their factors are told in SI."""
 
@@ -901,6 +932,7 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     belt_resistance.secondary_resistance: [(ValueError, (4e4, 79.0))],
     belt_section.minimum_pulley_diameter: [(ValueError, ("rubber", 0.006))],
     stopping.brake_torque_for_distance: [(ValueError, (19e3, 9e3, 0.5, 0.1, 0.65, 40.0, 0.9, 0.35, "seed"))],
+    rope_life.diameter_factor: [(ValueError, (0.001,))],
     rope_drum.layer_step: [(ValueError, (0.0175, 0.0195, "loose")), (ValueError, (0.0175, 0.035, "nested"))],
     rope_drum.layer_factor: [(ValueError, (3,))],
     hoist_class.rope_safety_of_group: [(ValueError, ("M7", 2))],
@@ -990,15 +1022,14 @@ def test_every_law_is_called_here() -> None:
     assert set(CALLS) == set(LAWS.values())
 
 
+NOT_NUMBERS = (str, bool, int, LoopMasses, HeldStrands, Mast, start_profile.Shape, rope_life.Constants)
+
+
 @over(BY_NAME)
 def test_every_number_has_a_unit(law: Law) -> None:
     parameters = inspect.signature(law).parameters
     assert list(parameters) == re.findall(r"^    (\w+): ", section(law, "Args"), re.MULTILINE)
-    numbers = {
-        name
-        for name, p in parameters.items()
-        if p.annotation not in (str, bool, int, LoopMasses, HeldStrands, Mast, start_profile.Shape)
-    }
+    numbers = {name for name, p in parameters.items() if p.annotation not in NOT_NUMBERS}
     assert set(argument_units(law)) == numbers
     for unit in [*argument_units(law).values(), *units(section(law, "Returns"))]:
         assert dimension(unit) is not None

@@ -11,7 +11,7 @@ from support.machines import spec_of
 from support.sagging_scenes import Swing, swing
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.machine.motion import moving
 from ptmcalc.machines.conveyor.waves.cells import set_up
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from support.shafts import C23, Reference, spec_of
 
-from ptmcalc.machines.shaft.cases import machine_for
 from ptmcalc.machines.shaft.cycle import bounds, energy_step
+from ptmcalc.machines.shaft.machine.cases import machine_for
 from ptmcalc.machines.shaft.speed_changes import step_table
 from ptmcalc.numerics.cycle import Grid, solve
 from ptmcalc.numerics.passage import Phase, State, follow

@@ -11,7 +11,7 @@ from support.machines import BW_02, changed, load_of, report_of, scene_of, spec_
 
 from ptmcalc.laws import loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 from ptmcalc.numerics import loop, strand
 
 PRINTED = 1e-5

@@ -12,8 +12,8 @@ from support.stacker_masts import OVERHEAD
 
 from ptmcalc.contract.report import LoadReport
 from ptmcalc.laws import buffer, mast, mast_compliance, mast_modes
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast.modal import COLLISION_MODAL, MAST_MODAL
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 PRINTED = 1e-5
 """Six digits."""

@@ -11,8 +11,8 @@ from support.machines import changed
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.spec import Run, Start
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.machine.spec import Run, Start
 
 
 def problems(data: dict[str, Any]) -> list[Diagnostic]:

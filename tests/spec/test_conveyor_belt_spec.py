@@ -11,7 +11,7 @@ from support.design_files import problem_in, read
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.base.span import dotted
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 MACHINE = """\
 kind: conveyor

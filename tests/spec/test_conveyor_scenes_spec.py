@@ -14,7 +14,8 @@ from support.design_files import place, problem_in, problems_in, read
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.base.span import dotted
-from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Jam, Start, Stop
+from ptmcalc.machines.conveyor.machine.scenes import EmergencyStop, Jam, Start, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 MACHINE = """\
 kind: conveyor

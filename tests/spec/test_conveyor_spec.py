@@ -20,7 +20,8 @@ from support.machines import changed, loaded, spec_of, template
 from ptmcalc.base.span import KeyPath, dotted, key_path
 from ptmcalc.engine.load import load_text, measure_at
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.spec import Conveyor, Run, Start
+from ptmcalc.machines.conveyor.machine.scenes import Run, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.spec.fields import Measure
 
 MACHINE = """\

@@ -4,7 +4,8 @@ import pytest
 
 from ptmcalc.base.span import dotted
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 MACHINE = """\
 kind: conveyor

@@ -19,9 +19,9 @@ from support.machines import report_of
 from ptmcalc.base.span import KeyPath, dotted, key_path
 from ptmcalc.engine.load import measure_at
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.drivetrain import spec
-from ptmcalc.machines.drivetrain.keys import bodies, brakes, gears, inertias, links, torques
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop
+from ptmcalc.machines.drivetrain.machine import spec
+from ptmcalc.machines.drivetrain.machine.keys import bodies, brakes, gears, inertias, links, torques
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Run, Start, Stop
 from ptmcalc.spec.shape import inner, keys_of, model_of
 
 MACHINE = """\

@@ -9,7 +9,7 @@ from support.machines import changed
 
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.hoist.spec import Lift, LowerBrake, Release, Run, WindUp
+from ptmcalc.machines.hoist.machine.spec import Lift, LowerBrake, Release, Run, WindUp
 
 
 def problems(data: dict[str, Any]) -> list[Diagnostic]:

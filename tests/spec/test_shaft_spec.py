@@ -18,8 +18,8 @@ from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.span import KeyPath, dotted, key_path
 from ptmcalc.engine.load import measure_at
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.shaft import spec
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
+from ptmcalc.machines.shaft.machine import spec
+from ptmcalc.machines.shaft.machine.spec import RunOut, RunUp, Shaft, Steady
 from ptmcalc.spec.shape import inner, keys_of, model_of
 
 CRANK = """\

@@ -15,7 +15,7 @@ from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.engine.run import settle
 from ptmcalc.engine.settled import Run, Settled
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 KIND = load_kind("conveyor")
 BUDGET = 2.0

@@ -7,7 +7,7 @@ import pytest
 from support.chain_starts import KIND, built, scraper
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene
 
 SCENES: list[dict[str, Any]] = [
     {"type": "start"},

@@ -18,7 +18,7 @@ from support.shafts import C23, Reference
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.report import FileReport
-from ptmcalc.machines.shaft import steady
+from ptmcalc.machines.shaft.machine import steady
 
 LINEAR: dict[str, Any] = {
     "kind": "shaft",

@@ -8,6 +8,7 @@ the direction of the force that it transmits: two systems, whose drive has a dif
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import expm
@@ -104,6 +105,39 @@ class Plant:
         middles = (np.arange(pieces) + 0.5) / pieces
         inner = [one + middles * (two - one) for one, two in zip(self.static[::2], self.static[1::2], strict=True)]
         return np.concatenate([*inner, np.array(self.static)])
+
+
+@dataclass(frozen=True)
+class Coupled(Plant):
+    """A conveyor whose tail sprocket has the speed of the driving one: node 0 is both, and each strand hangs on it at
+    both ends, the return strand free at the run-off unless `fixed`."""
+
+    def system(self, pieces: int, losses: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """As `Plant.system`, the working strand first, each from its end in the direction of the travel."""
+        inner = pieces - 1
+        working = [0, *range(1, inner + 1), 0]
+        back = [0, *range(inner + 1, 2 * inner + 1), 0 if self.fixed else 2 * inner + 1]
+        count = 2 * inner + (1 if self.fixed else 2)
+        mass, stiff, rows = np.zeros(count), np.zeros((count, count)), []
+        for strand, nodes in zip(self.strands, (working, back), strict=True):
+            h = strand.length / pieces
+            for ahead, behind in pairwise(nodes):
+                row = np.zeros(count)
+                row[ahead] += strand.stiffness / h
+                row[behind] -= strand.stiffness / h
+                stiff[ahead] += row
+                stiff[behind] -= row
+                mass[ahead] += strand.line_mass * h / 2
+                mass[behind] += strand.line_mass * h / 2
+                rows.append(row)
+        beyond = []
+        for first in (0, pieces):
+            last = first + inner
+            beyond += [(3 * rows[first] - rows[first + 1]) / 2, (3 * rows[last] - rows[last - 1]) / 2]
+        if not self.fixed:
+            beyond[-1] = np.zeros(count)
+        mass[0] += self.sprocket + losses * self.rotor + self.tail_mass
+        return mass, stiff, np.array([*rows, *beyond])
 
 
 @dataclass

@@ -6,7 +6,7 @@ import numpy as np
 
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 
 KIND: AnyKind = load_kind("chain_drive")
 

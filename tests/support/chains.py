@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from support import chain_fem
 from support.machines import loaded
 

@@ -172,13 +172,20 @@ class Statics:
         }
 
     def hold(self) -> dict[str, float]:
-        """What runs back of the full belt, or of one that is full where it climbs."""
+        """What runs back of the full belt, or of one that is full where it climbs; what runs forward of the full belt,
+        or of one that is full where it falls."""
         drum = next(iter(self.rig.drives.values()))
-        pulls = [
-            sum(part.length * (part.climb - self.stop_factor * part.friction) for part in self.rig.lengths(load))
-            for load in ("full", "uphill")
-        ]
-        return {"backstop_torque": max(0.0, *pulls) * drum.diameter / 2}
+
+        def pull(load: str, sense: int) -> float:
+            lengths = self.rig.lengths(load)
+            return sum(part.length * (sense * part.climb - self.stop_factor * part.friction) for part in lengths)
+
+        back, forward = (
+            max(0.0, pull("full", sense), pull(load, sense)) * drum.diameter / 2
+            for load, sense in (("uphill", 1), ("downhill", -1))
+        )
+        falls = any(lift < 0 for _, lift in self.rig.sections)
+        return {"backstop_torque": back} | ({"forward_torque": forward} if falls else {})
 
     def measured(self) -> float:
         """Way of the empty conveyor that runs out with its true coefficient, a rigid body [m]."""

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain
 from ptmcalc.text.document import parse
 from support.machines import loaded
 

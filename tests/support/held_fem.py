@@ -6,6 +6,7 @@ followed at once. Newmark's method with the average acceleration; the damping is
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,11 +34,11 @@ class Bar:
 
 
 def moved_by_ends(
-    bar: Bar, pieces: int, dt: float, first: Motion | None, last: Motion, hung: float = 0.0
+    bar: Bar, pieces: int, dt: float, first: Motion | None, last: Motion, hung: float = 0.0, *, running: bool = False
 ) -> np.ndarray:
     """Tensions at the beginning, in every element and at the end of a strand, shape (steps, pieces + 2, columns), when
     its ends are moved; without a motion of the first one, that end keeps its tension, but for a mass [kg] that follows
-    its motion against the last one."""
+    its motion against the last one. A strand that is `running` begins with speeds between those of its ends."""
     own, stiff = bar.matrices(pieces)
     mass = own.copy()
     mass[0, 0] += hung
@@ -52,6 +53,8 @@ def moved_by_ends(
     share = np.linspace(0.0, 1.0, pieces + 1)[:, None]
     begin = last if first is None else first
     u[:] = begin[0][0] + share * (last[0][0] - begin[0][0])
+    if running:
+        v[:] = begin[1][0] + share * (last[1][0] - begin[1][0])
     damp = bar.damping * stiff
     free = np.ix_(inner, inner)
     pushed = np.zeros((steps, pieces + 1, columns))
@@ -91,6 +94,22 @@ def on_one_shaft(
     The sprockets are one mass [kg] of one speed; `free` where the return strand begins at a constant tension. The four
     ends, in the order of the travel, move `ahead` of their sprockets; each of shape (steps,).
     """
+    found, _ = pulled_on_one_shaft(bars, free, sprockets, pieces, dt, len(forces), lambda n, _: float(forces[n]), ahead)
+    return found[0], found[1]
+
+
+def pulled_on_one_shaft(
+    bars: tuple[Bar, Bar],
+    free: bool,
+    sprockets: float,
+    pieces: int,
+    dt: float,
+    steps: int,
+    force: Callable[[int, float], float],
+    ahead: tuple[Motion | None, ...] = (None, None, None, None),
+) -> tuple[np.ndarray, Motion]:
+    """The same under a force by step and speed of the sprockets; tensions of shape (2, steps, pieces + 2), and the
+    motion of the sprockets."""
     count = pieces + 1
     mass, stiff, damp = (np.zeros((2 * count, 2 * count)) for _ in range(3))
     for k, bar in enumerate(bars):
@@ -106,7 +125,7 @@ def on_one_shaft(
     m[-1, -1] += sprockets
     push = np.zeros(len(m))
     push[-1] = 1
-    given = np.zeros((3, len(forces), 2 * count))
+    given = np.zeros((3, steps, 2 * count))
     for node, moved in zip((0, pieces, count, 2 * count - 1), ahead, strict=True):
         if moved is not None:
             given[:, :, node] = moved
@@ -118,14 +137,19 @@ def on_one_shaft(
         given[0, :, 0] = given[0, 0, pieces]
     loads = -(given[2] @ mass + given[1] @ damp + given[0] @ stiff) @ gather
     u, v = np.zeros(len(m)), np.zeros(len(m))
-    a = np.linalg.solve(m, push * forces[0] + loads[0])
+    a = np.linalg.solve(m, push * force(0, 0.0) + loads[0])
     step = np.linalg.inv(m + dt / 2 * c + dt**2 / 4 * k)
-    found = np.zeros((2, len(forces), pieces + 2))
-    for n, force in enumerate(forces):
+    found, turned = np.zeros((2, steps, pieces + 2)), np.zeros((3, steps))
+    for n in range(steps):
         if n:
+            before = v[-1] + dt * a[-1]
             u, v = u + dt * v + dt**2 / 4 * a, v + dt / 2 * a
-            a = step @ (push * force + loads[n] - c @ v - k @ u)
+            rest = step @ (loads[n] - c @ v - k @ u)
+            for _ in range(3):  # until force and speed fit each other
+                a = rest + step[:, -1] * force(n, before)
+                before = v[-1] + dt / 2 * a[-1]
             u, v = u + dt**2 / 4 * a, v + dt / 2 * a
+        turned[:, n] = u[-1], v[-1], a[-1]
         way, speed, rate = (gather @ part + more[n] for part, more in zip((u, v, a), given, strict=True))
         inner = mass @ rate + damp @ speed + stiff @ way
         for one, bar in enumerate(bars):
@@ -133,7 +157,7 @@ def on_one_shaft(
             stretch = np.diff(way[part]) + bar.damping * np.diff(speed[part])
             found[one, n, 1:-1] = bar.stiffness * pieces / bar.length * stretch
             found[one, n, 0], found[one, n, -1] = -inner[part][0], inner[part][-1]
-    return found[0], found[1]
+    return found, (turned[0], turned[1], turned[2])
 
 
 def profile(shape: str, time: float, speed: float, times: np.ndarray) -> Motion:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ptmcalc.contract.report import SceneReport
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.machine.spec import Hoist
 from support.machines import load_of, loaded, report_of, scene_of
 
 PAPER: dict[str, Any] = {

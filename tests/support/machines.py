@@ -10,7 +10,7 @@ from ptmcalc.contract.report import FileReport, Judgement, LoadReport, SceneRepo
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import Loaded, load_text
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 BW_02: dict[str, Any] = {
     "kind": "conveyor",

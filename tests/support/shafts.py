@@ -16,7 +16,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.shaft.spec import Shaft
+from ptmcalc.machines.shaft.machine.spec import Shaft
 from support.machines import loaded
 
 TURN = 2 * math.pi

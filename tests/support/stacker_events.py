@@ -4,7 +4,7 @@ from typing import Any
 
 from ptmcalc.contract.report import LoadReport, SceneReport
 from ptmcalc.contract.result import Result
-from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
 from support.machines import changed, load_of, loaded, report_of, scene_of
 from support.stacker_ode import Caught
 

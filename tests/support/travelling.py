@@ -7,7 +7,7 @@ import yaml
 from ptmcalc.contract.report import LoadReport, SceneReport
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from support.machines import changed, load_of, loaded, report_of, scene_of
 from support.travel_ode import Machine
 

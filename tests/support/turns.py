@@ -14,6 +14,8 @@ from support.command import ROOT
 BY_TEST = {
     # Random or extreme machines, each like the next.
     "tests/stability": 12,
+    "tests/edges/drivetrain/test_overhauling.py::test_the_worst_moment_decides": 3,
+    "tests/edges/test_assumption_uses.py::test_an_assumed_value_changes_nothing_elsewhere": 3,
     "tests/edges/test_error_bars_meet.py": 12,
     "tests/edges/test_forced_effects.py": 12,
     "tests/edges/test_found_is_said.py": 12,
@@ -63,7 +65,7 @@ BY_TEST = {
 """One test in so many runs at each commit: of a room, of a file, or of what is named in it."""
 BY_FILE = {"tests/coverage": 12}
 """The same of whole files, whose tests share one sample of random machines."""
-MANY = 5
+MANY = 3
 """Cases of one test that run at each commit; those of a longer table take turns: they run through the same lines."""
 ALWAYS = (
     "tests/edges",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.machine.spec import Hoist
 from support.machines import changed, loaded
 
 PAPER: dict[str, Any] = {

@@ -10,15 +10,15 @@ from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import chain_selection
 from ptmcalc.machines.chain_drive.assumptions import assumptions
 from ptmcalc.machines.chain_drive.figures import FIGURES
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.limiter.topic import LIMITER
-from ptmcalc.machines.chain_drive.model import mean_arm
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.machine.model import mean_arm
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.polygon.topic import POLYGON
 from ptmcalc.machines.chain_drive.relations import RELATIONS
 from ptmcalc.machines.chain_drive.running.topic import RUNNING
 from ptmcalc.machines.chain_drive.selection.topic import SELECTION
 from ptmcalc.machines.chain_drive.spans.topic import SPANS
-from ptmcalc.machines.chain_drive.spec import ChainDrive
 from ptmcalc.machines.chain_drive.speed_change.topic import SPEED_CHANGE
 from ptmcalc.machines.chain_drive.starting.topic import STARTING
 from ptmcalc.machines.chain_drive.stopping.topic import STOPPING

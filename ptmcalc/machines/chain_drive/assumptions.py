@@ -10,11 +10,11 @@ from ptmcalc.components.motor_starts import constant_losses
 from ptmcalc.components.plate_motor import of_the_plate
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import chain_selection
-from ptmcalc.machines.chain_drive.chain_data import TailSprocket
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.model import drive_of, filled
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Start, Stopping
+from ptmcalc.machines.chain_drive.machine.chain_data import TailSprocket
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.machine.model import drive_of, filled
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start, Stopping
 from ptmcalc.machines.chain_drive.starting.permitted_starts import PERMITTED
 from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene

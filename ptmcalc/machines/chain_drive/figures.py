@@ -6,8 +6,8 @@ from ptmcalc.base.units import SPEED
 from ptmcalc.contract.figure import Band, Course, Figure, Marks, Moment, Spot
 from ptmcalc.contract.report import SceneReport
 from ptmcalc.contract.result import of
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.polygon.resonances import operating_range
-from ptmcalc.machines.chain_drive.spec import ChainDrive
 
 _MOMENTS = (("start_time", "full speed of the rigid chain"), ("stop_time", "at rest"))
 

@@ -14,7 +14,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, ends_at_tail, tail_teeth, vibrating
+from ptmcalc.machines.chain_drive.machine.model import FloatArray, chain_line, ends_at_tail, tail_teeth, vibrating
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import OF_TENSION, QUIET, Answer, Tail, loads_of_tension
 from ptmcalc.machines.chain_drive.polygon.excitation import (
     FAR,
     POLYGON,
@@ -26,8 +28,6 @@ from ptmcalc.machines.chain_drive.polygon.excitation import (
     undamped,
 )
 from ptmcalc.machines.chain_drive.polygon.return_strand import return_chain, return_place
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import OF_TENSION, QUIET, Answer, Tail, loads_of_tension
 from ptmcalc.numerics.harmonic.parts import FREE, KELVIN_VOIGT, ON_SPROCKET, Chain, Line
 
 _PIECES = (30, 60, 120)

@@ -4,9 +4,9 @@ import math
 from collections.abc import Mapping
 
 from ptmcalc.contract.relation import Relation, computed, ordered
-from ptmcalc.machines.chain_drive import strength
-from ptmcalc.machines.chain_drive.model import chain_line
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run, Start
+from ptmcalc.machines.chain_drive.machine import strength
+from ptmcalc.machines.chain_drive.machine.model import chain_line
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run, Start
 from ptmcalc.machines.chain_drive.starting.motion import start_case
 from ptmcalc.spec.scene import Scene
 

@@ -8,9 +8,9 @@ from ptmcalc.machines.conveyor.curves.topic import CURVES
 from ptmcalc.machines.conveyor.figures import FIGURES
 from ptmcalc.machines.conveyor.holding.topic import ROLLBACK
 from ptmcalc.machines.conveyor.inspection import inspect
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.relations import RELATIONS
 from ptmcalc.machines.conveyor.running.topic import RUNNING
-from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.starting.topic import STARTING
 from ptmcalc.machines.conveyor.stopping.topic import STOPPING
 from ptmcalc.machines.conveyor.takeup.topic import TAKEUP

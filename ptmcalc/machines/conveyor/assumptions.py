@@ -13,23 +13,23 @@ from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST
 from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
-from ptmcalc.machines.conveyor.loading import load_line_mass
-from ptmcalc.machines.conveyor.loads import BRAKING_POWER, TAKEUP_CLEARANCES, TAKEUP_TOTAL
-from ptmcalc.machines.conveyor.model import braking_force
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.running.idlers import rolls, rolls_of_a_set
-from ptmcalc.machines.conveyor.spec import (
+from ptmcalc.machines.conveyor.machine.keys.drives import Drive
+from ptmcalc.machines.conveyor.machine.loading import load_line_mass
+from ptmcalc.machines.conveyor.machine.loads import BRAKING_POWER, TAKEUP_CLEARANCES, TAKEUP_TOTAL
+from ptmcalc.machines.conveyor.machine.model import braking_force
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import (
     IN_MOTION,
     Coast,
     ControlledStop,
-    Conveyor,
-    Drive,
     EmergencyStop,
     Run,
     Start,
     Stop,
     Stopping,
 )
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.running.idlers import rolls, rolls_of_a_set
 from ptmcalc.machines.conveyor.starting.permitted_starts import PERMITTED
 from ptmcalc.numerics.lanes import value
 
@@ -236,10 +236,10 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "rest_factor"),
         units.RATIO,
-        lambda spec: AT_REST if any(asks_for_hold(spec, scene) for scene in spec.all_scenes) else None,
+        lambda spec: AT_REST if any(asks_for_hold(spec, one) for one in spec.all_scenes) else None,
         lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
         "practice for backstops: half of the running resistance of the idlers, none of loading points and cleaners",
-        Use(loads=frozenset({"backstop_torque"})),
+        Use(loads=frozenset({"backstop_torque", "forward_torque"})),
     ),
     Assumption(
         ("takeup", "mass"),

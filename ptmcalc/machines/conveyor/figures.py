@@ -3,7 +3,7 @@
 from ptmcalc.base.units import SPAN, digits
 from ptmcalc.contract.figure import Course, Figure, Marks, Moment, Threshold
 from ptmcalc.contract.report import SceneReport
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 _IN_MOTION = ("start", "stop", "emergency_stop", "controlled_stop", "coast", "jam")
 

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Finding
-from ptmcalc.machines.conveyor.motion import on_slip_lines
-from ptmcalc.machines.conveyor.plausible import implausible
-from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
+from ptmcalc.machines.conveyor.machine.motion import on_slip_lines
+from ptmcalc.machines.conveyor.machine.plausible import implausible
+from ptmcalc.machines.conveyor.machine.scenes import EmergencyStop, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.waves.effects.damping import jumps
 
 _SPEED_TOLERANCE = 0.05

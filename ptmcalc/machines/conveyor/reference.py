@@ -15,12 +15,13 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
-from ptmcalc.machines.conveyor.model import FloatArray, Strand, drive_force, drive_masses
-from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.machine.loads import DRIVE, OF_NETWORK, PER_DRIVE
+from ptmcalc.machines.conveyor.machine.model import FloatArray, Strand, drive_force, drive_masses
+from ptmcalc.machines.conveyor.machine.motion import MOST_ROUNDS, Moving, moving
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Jam, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.waves.network import CELLS
 from ptmcalc.reference import belt
 from ptmcalc.reference.belt import Length, Motion, Plan, Roller

@@ -4,8 +4,9 @@ import math
 from collections.abc import Mapping
 
 from ptmcalc.contract.relation import Relation, computed, ordered
-from ptmcalc.machines.conveyor.model import breaking_force
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, EmergencyStop, Run, Stop
+from ptmcalc.machines.conveyor.machine.model import breaking_force
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, EmergencyStop, Run, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.spec.scene import Scene
 
 _ANY: frozenset[type[Scene]] = IN_MOTION.union((Run,))

@@ -9,10 +9,10 @@ from ptmcalc.contract.topic import of_topics
 from ptmcalc.machines.drivetrain.assumptions import assumed
 from ptmcalc.machines.drivetrain.figures import FIGURES
 from ptmcalc.machines.drivetrain.links.topic import LINKS
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain
 from ptmcalc.machines.drivetrain.motion.topic import MOTION
 from ptmcalc.machines.drivetrain.motors.topic import MOTORS
 from ptmcalc.machines.drivetrain.relations import RELATIONS
-from ptmcalc.machines.drivetrain.spec import Drivetrain
 from ptmcalc.machines.drivetrain.vibration.topic import VIBRATION
 
 

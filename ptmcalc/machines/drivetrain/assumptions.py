@@ -7,10 +7,10 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.components.motor import AnyMotor, InductionBase
 from ptmcalc.contract.machine import Assumption
-from ptmcalc.machines.drivetrain.keys.gears import Gear
-from ptmcalc.machines.drivetrain.keys.links import Link
-from ptmcalc.machines.drivetrain.model import turning_with
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Stop
+from ptmcalc.machines.drivetrain.machine.keys.gears import Gear
+from ptmcalc.machines.drivetrain.machine.keys.links import Link
+from ptmcalc.machines.drivetrain.machine.model import turning_with
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Stop
 
 _WORN = 0.15
 """Upper limit of wear that the file omits, relative to the tooth [1]: the earliest renewal of lecture notes Kramatorsk,

@@ -9,10 +9,10 @@ import math
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of, rigid
+from ptmcalc.machines.drivetrain.machine.model import REACHED, Case, case_of, rigid
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.machines.drivetrain.motion import simulation
 from ptmcalc.machines.drivetrain.motion.loads import MOVING
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.reference import lumped, lumped_cost, two_runs
 from ptmcalc.reference.lumped_history import History
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.relation import Bounds, Relation, ordered
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.spec.scene import Scene
 
 _ANY: frozenset[type[Scene]] = frozenset({Run, Start, Stop})

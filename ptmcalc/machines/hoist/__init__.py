@@ -4,20 +4,26 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, reference_methods_in, template_in
+from ptmcalc.contract.machine import MachineKind, Use, reference_methods_in, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import lift_off_standard
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.assumptions import assumptions
 from ptmcalc.machines.hoist.braking.topic import BRAKING
 from ptmcalc.machines.hoist.drive.cycle import CYCLE
+from ptmcalc.machines.hoist.drive.holding import HOLDING_RULE
 from ptmcalc.machines.hoist.drive.topic import DRIVE
 from ptmcalc.machines.hoist.figures import FIGURES
-from ptmcalc.machines.hoist.model import drum_speed
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import drum_speed
+from ptmcalc.machines.hoist.machine.spec import CREEPING, Hoist, Run
 from ptmcalc.machines.hoist.motion.topic import MOTION
 from ptmcalc.machines.hoist.relations import RELATIONS
-from ptmcalc.machines.hoist.spec import CREEPING, Hoist
+from ptmcalc.machines.hoist.rope import life, shell
+from ptmcalc.machines.hoist.rope.fleet import FLEET_ANGLES
+from ptmcalc.machines.hoist.rope.life import ROPE_LIFE
+from ptmcalc.machines.hoist.rope.proof import ROPE_PROOF
+from ptmcalc.machines.hoist.rope.shell import DRUM_SHELL
 from ptmcalc.machines.hoist.statics.topic import STATICS
 from ptmcalc.machines.hoist.winding.topic import WINDING
 
@@ -86,7 +92,26 @@ def _editions_that_differ(spec: Hoist) -> Iterator[Finding]:
         )
 
 
-TOPICS = (STATICS, DRIVE, MOTION, WINDING, BRAKING, CYCLE)
+TOPICS = (
+    STATICS,
+    DRIVE,
+    MOTION,
+    WINDING,
+    BRAKING,
+    CYCLE,
+    ROPE_LIFE,
+    ROPE_PROOF,
+    FLEET_ANGLES,
+    DRUM_SHELL,
+    HOLDING_RULE,
+)
+
+USES = {
+    "rope_life.force_factor": Use(frozenset({Run}), frozenset(info.name for info in life.LOADS)),
+    "drum.shell.modulus": Use(frozenset({Run}), frozenset(info.name for info in shell.LOADS)),
+    "drum.shell.flange_pressure": Use(frozenset({Run}), frozenset(info.name for info in shell.LOADS)),
+}
+"""Where constants are used that declarations of keys assume."""
 
 KIND = MachineKind(
     name="hoist",
@@ -100,6 +125,7 @@ KIND = MachineKind(
     levers=("gearbox.ratio", "scenes[*].profile.time"),
     inspect=inspect,
     relations=RELATIONS,
+    uses=USES,
     seconding=reference_methods_in(__package__),
     **of_topics(TOPICS),
 )

@@ -8,7 +8,7 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws.duty import DUTY_TYPES
 from ptmcalc.machines.hoist.braking.loads import ONE_STOP, REPEATED
-from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist, WindUp
+from ptmcalc.machines.hoist.machine.spec import EmergencyStop, Hoist, WindUp
 
 _MASS_FACTOR, _LIGHT, _HEAVY = 3800.0, 3400.0, 4300.0
 """Mass per length of a rope relative to the square of its diameter [kg/m^3], EN 12385-4. `_MASS_FACTOR`: default.

@@ -13,6 +13,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist.machine.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.effects import ALWAYS, SCENES
 from ptmcalc.machines.hoist.motion.loads import MOVING
@@ -31,7 +32,6 @@ from ptmcalc.machines.hoist.motion.train import (
     Case,
     Moving,
 )
-from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.parts import LINEAR, Body, Train
 from ptmcalc.reference import lumped, lumped_cost, two_runs
 from ptmcalc.reference.lumped_history import History

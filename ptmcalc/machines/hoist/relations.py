@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.relation import Bounds, Relation, computed, ordered
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Run, Start, Stop
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Run, Start, Stop
 from ptmcalc.spec.scene import Scene
 
 _MOVING: frozenset[type[Scene]] = frozenset((Lift, Start, Stop, LowerBrake, Release))

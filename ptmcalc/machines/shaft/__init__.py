@@ -14,9 +14,9 @@ from ptmcalc.machines.shaft.assumptions import ASSUMPTIONS
 from ptmcalc.machines.shaft.cycle.topic import CYCLE
 from ptmcalc.machines.shaft.figures import FIGURES
 from ptmcalc.machines.shaft.inertia.topic import INERTIA
-from ptmcalc.machines.shaft.model import machine_of
+from ptmcalc.machines.shaft.machine.model import machine_of
+from ptmcalc.machines.shaft.machine.spec import RunUp, Shaft, SliderCrank, ToolLoad
 from ptmcalc.machines.shaft.relations import RELATIONS
-from ptmcalc.machines.shaft.spec import RunUp, Shaft, SliderCrank, ToolLoad
 from ptmcalc.machines.shaft.speed_changes.topic import SPEED_CHANGES
 
 _SPEED_TOLERANCE = 0.05

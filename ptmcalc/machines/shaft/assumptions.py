@@ -3,7 +3,7 @@
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
-from ptmcalc.machines.shaft.spec import SectorLoad, Shaft, SliderCrank, TableLoad
+from ptmcalc.machines.shaft.machine.spec import SectorLoad, Shaft, SliderCrank, TableLoad
 
 
 def _efficiency(spec: Shaft) -> float:

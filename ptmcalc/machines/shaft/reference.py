@@ -18,9 +18,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft.cases import machine_for, machine_in
-from ptmcalc.machines.shaft.mechanism import FloatArray
-from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.machine.cases import machine_for, machine_in
+from ptmcalc.machines.shaft.machine.mechanism import FloatArray
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.spec import RunOut, RunUp, Shaft, Steady
 from ptmcalc.machines.shaft.reference_cycle import (
     FIRST,
     SECOND,
@@ -30,7 +31,6 @@ from ptmcalc.machines.shaft.reference_cycle import (
     steady,
     stretches,
 )
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
 from ptmcalc.machines.shaft.speed_changes.cases import is_braked, target_speed
 from ptmcalc.reference import lumped_history, two_runs
 

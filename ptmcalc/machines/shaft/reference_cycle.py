@@ -13,10 +13,10 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
-from ptmcalc.machines.shaft.cases import machine_in
-from ptmcalc.machines.shaft.mechanism import FloatArray
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
+from ptmcalc.machines.shaft.machine.cases import machine_in
+from ptmcalc.machines.shaft.machine.mechanism import FloatArray
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.spec import RunOut, RunUp, Shaft, Steady
 from ptmcalc.machines.shaft.speed_changes.cases import is_braked
 from ptmcalc.reference import lumped_history, two_runs
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.relation import Bounds, Relation, ordered
-from ptmcalc.machines.shaft.spec import RunOut, Shaft, Steady
+from ptmcalc.machines.shaft.machine.spec import RunOut, Shaft, Steady
 from ptmcalc.spec.scene import Scene
 
 _CYCLE: frozenset[type[Scene]] = frozenset({Steady})

@@ -64,6 +64,44 @@ def test_torques_of_sprockets_that_turn_apart_decide_nothing(
     assert {verdict(data, code) for code in codes} == {Verdict.UNDECIDED}
 
 
+ON_CURVE = {
+    "power": "22 kW",
+    "speed": "1460 rpm",
+    "locked_rotor_ratio": 2.2,
+    "breakdown_ratio": 2.6,
+    "inertia": "0.35 kg*m^2",
+}
+
+
+@pytest.mark.parametrize(
+    ("strength", "tail", "said"),
+    [
+        ("350 kN", "on", Verdict.PASS),
+        ("90 kN", "on", Verdict.FAIL),
+        ("350 kN", "off", Verdict.UNDECIDED),
+        ("90 kN", "off", Verdict.UNDECIDED),
+    ],
+)
+def test_motors_on_their_curve_start_sprockets_of_one_speed(strength: str, tail: str, said: Verdict) -> None:
+    data = driven(
+        {"type": "start"},
+        share=0.2,
+        layout__tail__synchronised=tail,
+        layout__takeup__tension="20 kN",
+        chain__breaking_load=strength,
+        speed="0.3 m/s",
+        drive__motor=ON_CURVE,
+        drive__gear__ratio=104,
+    )
+    assert verdict(data, "CHN122") is said
+
+
+def test_a_speed_range_moves_both_sprockets() -> None:
+    sweep = {"type": "speed_range", "from": "0.1 m/s", "to": "0.4 m/s", "time": "5 s"}
+    for strength, said in (("350 kN", Verdict.PASS), ("70 kN", Verdict.FAIL)):
+        assert verdict(driven(sweep, share=0.2, chain__breaking_load=strength), "CHN128") is said
+
+
 @pytest.mark.parametrize(
     ("changes", "low", "high"),
     [

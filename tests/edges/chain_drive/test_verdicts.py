@@ -14,7 +14,7 @@ from support.command import ROOT
 from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
-from ptmcalc.machines.chain_drive.spec import EmergencyStop, Run, Start
+from ptmcalc.machines.chain_drive.machine.spec import EmergencyStop, Run, Start
 from ptmcalc.machines.chain_drive.starting.motion import start_case
 
 HERE = Path(__file__).parent

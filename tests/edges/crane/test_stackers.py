@@ -16,9 +16,9 @@ from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.run import settle
-from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.scenes import Stand
 from ptmcalc.machines.crane.stacking.mechanisms.drive_times import DRIVE_TIMES
-from ptmcalc.machines.crane.stacking.scenes import Stand
 from ptmcalc.numerics import record
 
 HERE = Path(__file__).parent

@@ -11,7 +11,7 @@ from support.command import ROOT
 from ptmcalc.contract.result import History, Result
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_file
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.starting.motion import start_case
 from ptmcalc.machines.chain_drive.stopping.motion import stop_case
 

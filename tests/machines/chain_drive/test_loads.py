@@ -10,7 +10,7 @@ from support.command import ROOT, ptmcalc
 from support.machines import changed, load_of, report_of, scene_of
 
 from ptmcalc.laws import inertia
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine.model import (
     chain_line,
     drive_mass,
     natural_frequencies,

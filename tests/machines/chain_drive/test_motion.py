@@ -13,7 +13,7 @@ from support.chain_starts import KIND, built, random_chain, scraper
 from support.machines import load_of, report_of
 
 from ptmcalc.contract.result import Result
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene
 
 G = 9.81
 

@@ -5,9 +5,9 @@ import pytest
 from support.command import ROOT
 
 from ptmcalc.engine.load import load_file
-from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.machine.motion import moving
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.reference import _moved
-from ptmcalc.machines.conveyor.spec import Conveyor
 
 SCREW = "specs/conveyor/screw_takeup_conveyor.yaml"
 CARRIED = frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers", "slip"})

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from support.machines import changed, check_of, load_of, report_of, scene_of, spec_of, template
 
 from ptmcalc.base.diagnostic import Verdict
-from ptmcalc.machines.conveyor.model import belt_line
+from ptmcalc.machines.conveyor.machine.model import belt_line
 
 CURVE = ((0.0, 1700.0), (800.0, 1500.0), (1300.0, 2100.0), (1480.0, 700.0), (1500.0, 0.0))
 """Motor speed [rpm] and torque [N*m], straight between."""

@@ -12,12 +12,13 @@ from typing import Any
 import pytest
 import yaml
 from support.command import ROOT
-from support.machines import spec_of
+from support.machines import report_of, spec_of
 
+from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.conveyor.loads import OF_STOP
-from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.machine.loads import OF_STOP
+from ptmcalc.machines.conveyor.machine.motion import moving
 from ptmcalc.machines.conveyor.waves import cell_runs, network
 
 EFFECTS = frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers"})
@@ -84,6 +85,14 @@ def test_random_stops() -> None:
     found = [stopped(seed) for seed in range(40)]
     assert sum(one is not None for one in found) >= 10
     assert [one for seed in range(40) for one in outside(seed)] == []
+
+
+@pytest.mark.parametrize("seed", [16, 43])
+def test_a_belt_that_surely_slips_fails_whatever_its_gear_losses(seed: int) -> None:
+    """15 m and 550 m of slip: a bar of rounding left the traction reserve of the first as 0.78 to 1.27."""
+    for one in report_of(decline(seed)).judgements:
+        if one[1].code == "CNV101":
+            assert one[1].verdict is Verdict.FAIL
 
 
 def test_a_stop_has_no_negative_time_or_distance() -> None:

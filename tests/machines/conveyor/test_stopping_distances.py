@@ -16,8 +16,8 @@ from support.belt_scenes import Brake, Drive, Rig, loads_of
 from support.machines import changed, load_of, report_of, scene_of, spec_of
 
 from ptmcalc.contract.report import SceneReport
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.motion import moving
 from ptmcalc.machines.conveyor.stopping.gear_losses import changing_sides
 from ptmcalc.machines.conveyor.waves import cell_runs
 from ptmcalc.machines.conveyor.waves.unfinished_stop import time_to_rest

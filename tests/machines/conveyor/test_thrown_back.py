@@ -14,7 +14,7 @@ from support.belt_scenes import Drive, Rig
 from support.machines import load_of, report_of, scene_of, spec_of
 
 from ptmcalc.contract.report import SceneReport
-from ptmcalc.machines.conveyor.plain_start import thrown_back
+from ptmcalc.machines.conveyor.machine.plain_start import thrown_back
 
 RIG = Rig(sections=((400.0, 12.0),), stiffness=12e6, tension=400e3, drives={"head": Drive(friction=None)})
 SHARP, GENTLE = 0.5, 3.2

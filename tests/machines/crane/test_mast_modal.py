@@ -13,10 +13,10 @@ from support.stacker_masts import OVERHEAD, RACK, random_stacker
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.contract.result import Result
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast import modal
 from ptmcalc.machines.crane.stacking.mast.names import GRAVITY
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 C = 600e3
 BENDING = C * 6**3 / 3

@@ -9,7 +9,7 @@ from support.slewing import COURSE, YARD
 from support.slewing_ode import Crane, rotate
 
 from ptmcalc.laws import slewing
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane
 from ptmcalc.machines.crane.slewing.sway.simulated_rotation import rotation
 
 WHOLE = changed(

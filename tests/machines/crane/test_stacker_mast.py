@@ -15,8 +15,8 @@ from ptmcalc.contract.report import SceneReport
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.laws.mast_modes import Mast, mast_frequency
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast.modal import COLLISION_MODAL, MAST_MODAL
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 TYPES = {one.type: one for one in load_kind("crane").types}
 

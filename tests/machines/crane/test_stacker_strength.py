@@ -10,8 +10,8 @@ from support.machines import changed, loaded
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Found
-from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, SafetyGearScene, Stand
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, ObstacleScene, SafetyGearScene, Stand
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import bounds_of_derived, derived, with_derived
 
 G = 9.81

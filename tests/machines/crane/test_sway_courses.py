@@ -5,7 +5,7 @@ import pytest
 from support.command import ROOT
 
 from ptmcalc.engine.load import load_file
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.sway_linear import SWAY_LINEAR
 from ptmcalc.machines.crane.travelling.sway.sway_simulated import SWAY_SIMULATED
 

@@ -15,7 +15,7 @@ from ptmcalc.contract.result import Found
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.travelling.scenes import Moving
+from ptmcalc.machines.crane.travelling.machine.scenes import Moving
 from ptmcalc.machines.crane.travelling.sway.sway_exact import SWAY_EXACT
 from ptmcalc.machines.crane.travelling.sway.sway_linear import SWAY_LINEAR
 from ptmcalc.machines.crane.travelling.sway.sway_simulated import SWAY_SIMULATED

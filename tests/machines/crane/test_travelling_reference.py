@@ -11,7 +11,7 @@ from support.machines import changed, load_of
 from support.travelling import BRIDGE, crane_of, scene_report
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.crane.travelling.model import State
+from ptmcalc.machines.crane.travelling.machine.model import State
 from ptmcalc.machines.crane.travelling.reference import SWAY_CARTESIAN
 from ptmcalc.machines.crane.travelling.sway.simulated import Simulated
 from ptmcalc.machines.crane.travelling.sway.sway_simulated import SWAY_SIMULATED

@@ -9,9 +9,9 @@ from support.machines import changed, report_of
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.machine.model import case_of, rigid
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain
 from ptmcalc.machines.drivetrain.motion import bounds, simulation
-from ptmcalc.machines.drivetrain.spec import Drivetrain
 from ptmcalc.numerics.train.modes import damped
 from ptmcalc.numerics.train.parts import Body, Spring, Train
 

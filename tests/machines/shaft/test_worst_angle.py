@@ -5,7 +5,7 @@ import pytest
 from support.command import ROOT
 
 from ptmcalc.engine.load import load_file
-from ptmcalc.machines.shaft.spec import RunOut, Shaft
+from ptmcalc.machines.shaft.machine.spec import RunOut, Shaft
 from ptmcalc.machines.shaft.speed_changes import worst
 from ptmcalc.machines.shaft.speed_changes.cases import departure
 from ptmcalc.machines.shaft.speed_changes.motion import ORDERS, run_out

@@ -1,8 +1,8 @@
 """Scenes in which a loaded chain that climbs can run back."""
 
 from ptmcalc.components.run_back import checked_elsewhere, rollback_scene
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Hold, Run, Start, Stopping
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene, Hold, Run, Start, Stopping
 
 
 def asks_for_hold(spec: ChainDrive, scene: ChainScene) -> bool:

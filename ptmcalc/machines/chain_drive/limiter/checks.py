@@ -9,8 +9,8 @@ from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs
 from ptmcalc.contract.limits import key
 from ptmcalc.machines.chain_drive.limiter.stops import STOPS
 from ptmcalc.machines.chain_drive.limiter.trips import ACTS, limiter_of
-from ptmcalc.machines.chain_drive.model import chain_line
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Run, Start
+from ptmcalc.machines.chain_drive.machine.model import chain_line
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene, Run, Start
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

@@ -7,7 +7,7 @@ from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.machines.chain_drive.limiter.starts import best_torque, start_torque
 from ptmcalc.machines.chain_drive.limiter.stops import STOPS, stop_torque
 from ptmcalc.machines.chain_drive.limiter.trips import least
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start, Stopping
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene, Start, Stopping
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS
 from ptmcalc.machines.chain_drive.stopping.formulas import OF_STOP
 

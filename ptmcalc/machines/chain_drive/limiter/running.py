@@ -8,12 +8,12 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import inertia
 from ptmcalc.machines.chain_drive.limiter.torque import arms, larger, of_pull
 from ptmcalc.machines.chain_drive.limiter.trips import fitted, limiter_of
-from ptmcalc.machines.chain_drive.model import chain_line, drive_mass, ends_at_tail, mean_arm
+from ptmcalc.machines.chain_drive.machine.model import chain_line, drive_mass, ends_at_tail, mean_arm
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import AT_REST, Answer, safety, through
 from ptmcalc.machines.chain_drive.polygon.answers import answer
 from ptmcalc.machines.chain_drive.polygon.excitation import FAR, HARMONICS, POLYGON, WEAK
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.starting.motion import sprocket_mass
-from ptmcalc.machines.chain_drive.strength import AT_REST, Answer, safety, through
 
 _CHAIN_SHARE = 2.5
 """Part of the chain in the tension that a rigid jam adds, over Z V [1]. Calibrated on 800 cases of `jam`, whose largest

@@ -20,8 +20,8 @@ from ptmcalc.machines.chain_drive.limiter.torque import (
     of_pull,
 )
 from ptmcalc.machines.chain_drive.limiter.trips import fitted, tripped
-from ptmcalc.machines.chain_drive.model import has_driven_tail, mean_arm
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.machine.model import has_driven_tail, mean_arm
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.speed_change.effects import weight_bound
 from ptmcalc.machines.chain_drive.speed_change.motor_teeth import MOTOR_TEETH, curve_teeth_simulated
 from ptmcalc.machines.chain_drive.speed_change.teeth import start_passing

@@ -8,8 +8,8 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.chain_drive.limiter.torque import Through, extremes, larger, modes_through, negative, of_pull
 from ptmcalc.machines.chain_drive.limiter.trips import fitted, tripped
-from ptmcalc.machines.chain_drive.model import has_driven_tail, mean_arm
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Coast, EmergencyStop, Stop, Stopping
+from ptmcalc.machines.chain_drive.machine.model import has_driven_tail, mean_arm
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Coast, EmergencyStop, Stop, Stopping
 from ptmcalc.machines.chain_drive.starting.waves import felt
 from ptmcalc.machines.chain_drive.stopping import motion
 from ptmcalc.machines.chain_drive.stopping.formulas import waves, waves_valid

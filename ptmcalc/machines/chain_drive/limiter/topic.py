@@ -8,7 +8,7 @@ from ptmcalc.machines.chain_drive.limiter.effects import LIMITER_TRIP
 from ptmcalc.machines.chain_drive.limiter.running import LIMITER_JAM, LIMITER_RUN
 from ptmcalc.machines.chain_drive.limiter.starts import LIMITER_START, LIMITER_TEETH
 from ptmcalc.machines.chain_drive.limiter.stops import LIMITER_STOP
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 
 LIMITER: Topic[ChainDrive] = Topic(
     loads=(

@@ -8,9 +8,9 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import mean_arm, radius
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.model import mean_arm, radius
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene
 from ptmcalc.machines.chain_drive.starting.motion import Swinging, ratios
 from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
 from ptmcalc.numerics.mode_sum import Modes, Peaks

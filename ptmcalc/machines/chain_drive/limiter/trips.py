@@ -4,7 +4,7 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, TorqueLimiter
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene, TorqueLimiter
 
 ACTS = {"slip_clutch": "slips", "shear_pin": "breaks"}
 """What a limiter does at its torque, by its type, in texts for users."""

@@ -5,7 +5,9 @@ import math
 import numpy as np
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.chain_drive.model import FloatArray, vibrating
+from ptmcalc.machines.chain_drive.machine.model import FloatArray, vibrating
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import STILL, Answer, Tail
 from ptmcalc.machines.chain_drive.polygon.excitation import (
     HARMONICS,
     ended,
@@ -18,8 +20,6 @@ from ptmcalc.machines.chain_drive.polygon.excitation import (
     unbounded,
 )
 from ptmcalc.machines.chain_drive.polygon.return_strand import OfReturn, of_return, return_bound
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import STILL, Answer, Tail
 from ptmcalc.numerics.harmonic.inside import Extremes, joint_response
 from ptmcalc.numerics.harmonic.parts import Chain
 from ptmcalc.numerics.harmonic.response import polygon_response

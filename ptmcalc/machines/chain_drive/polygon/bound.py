@@ -5,12 +5,12 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.chain_drive.layout import TwoShafts
-from ptmcalc.machines.chain_drive.model import chain_line, has_driven_tail
+from ptmcalc.machines.chain_drive.machine.layout import TwoShafts
+from ptmcalc.machines.chain_drive.machine.model import chain_line, has_driven_tail
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import OF_TENSION, QUIET, STILL, Answer, Tail, loads_of_tension
 from ptmcalc.machines.chain_drive.polygon.answers import answer_bound
 from ptmcalc.machines.chain_drive.polygon.excitation import FAR, POLYGON, WEAK
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import OF_TENSION, QUIET, STILL, Answer, Tail, loads_of_tension
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:

@@ -7,9 +7,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_resonance
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON, WEAK, tooth_frequency
 from ptmcalc.machines.chain_drive.polygon.resonances import Resonances, operating_range, resonances, safe_speeds
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:

@@ -6,11 +6,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.chain_drive.model import tension_key
+from ptmcalc.machines.chain_drive.machine.model import tension_key
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import SAFETY
 from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON, WEAK
 from ptmcalc.machines.chain_drive.polygon.resonances import resonances
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import SAFETY
 
 Loads = Mapping[str, Estimate]
 RUNNING = frozenset({Run})

@@ -9,8 +9,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import polygon
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import chain_line, vibrating
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.model import chain_line, vibrating
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import OF_TENSION, loads_of_tension
 from ptmcalc.machines.chain_drive.polygon.answers import answer
 from ptmcalc.machines.chain_drive.polygon.excitation import (
     FAR,
@@ -22,8 +24,6 @@ from ptmcalc.machines.chain_drive.polygon.excitation import (
     undamped,
 )
 from ptmcalc.machines.chain_drive.polygon.resonances import operating_range
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
 
 SWEEP = 200
 """Speeds of a sweep over the operating range. A numerical choice: more resolve narrow resonances in the figure and take

@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import inertia
-from ptmcalc.machines.chain_drive.model import breaking_load, chain_line, drive_mass
+from ptmcalc.machines.chain_drive.machine.model import breaking_load, chain_line, drive_mass
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import of_one_chain, unevenness
 from ptmcalc.machines.chain_drive.polygon.answers import answer_bound
 from ptmcalc.machines.chain_drive.polygon.chain_modes import loads_of
 from ptmcalc.machines.chain_drive.polygon.excitation import (
@@ -17,8 +19,6 @@ from ptmcalc.machines.chain_drive.polygon.excitation import (
     static_scale,
 )
 from ptmcalc.machines.chain_drive.polygon.resonances import resonances
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import of_one_chain, unevenness
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]

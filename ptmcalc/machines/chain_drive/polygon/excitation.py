@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.laws import inertia, polygon, sprocket
-from ptmcalc.machines.chain_drive.layout import TwoShafts
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine.layout import TwoShafts
+from ptmcalc.machines.chain_drive.machine.model import (
     FloatArray,
     chain_line,
     damping,
@@ -24,7 +24,7 @@ from ptmcalc.machines.chain_drive.model import (
     tail_teeth,
     vibrating,
 )
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
 from ptmcalc.numerics.harmonic import parts
 from ptmcalc.numerics.harmonic.inside import joint_forces
 from ptmcalc.numerics.harmonic.parts import Chain, Excitation

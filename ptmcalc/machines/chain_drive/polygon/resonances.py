@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.laws import chain_resonance
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine.model import (
     MODES,
     FloatArray,
     chain_line,
@@ -14,9 +14,9 @@ from ptmcalc.machines.chain_drive.model import (
     natural_frequencies,
     vibrating,
 )
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.polygon.excitation import mass_of_drive, residual
 from ptmcalc.machines.chain_drive.polygon.return_strand import return_chain, return_frequencies
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.numerics.harmonic.parts import Chain
 from ptmcalc.numerics.harmonic.waves import dynamic_stiffness
 

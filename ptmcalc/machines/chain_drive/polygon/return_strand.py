@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.model import (
     FloatArray,
     chain_line,
     damping,
@@ -19,6 +19,8 @@ from ptmcalc.machines.chain_drive.model import (
     held_frequencies,
     tail_teeth,
 )
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import STILL
 from ptmcalc.machines.chain_drive.polygon.excitation import (
     FAR,
     ended,
@@ -29,8 +31,6 @@ from ptmcalc.machines.chain_drive.polygon.excitation import (
     still,
     tooth_frequency,
 )
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import STILL
 from ptmcalc.numerics.harmonic import parts
 from ptmcalc.numerics.harmonic.parts import Chain, Excitation
 from ptmcalc.numerics.harmonic.response import polygon_response

@@ -5,11 +5,11 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_resonance, polygon
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import filled, load_line_mass
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.model import filled, load_line_mass
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.polygon.chain_modes import TEXTBOOK_K
 from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.polygon.bound import POLYGON_BOUND
 from ptmcalc.machines.chain_drive.polygon.chain_modes import CHAIN_MODES, FREQUENCIES, ORDERS, WINDOWS
 from ptmcalc.machines.chain_drive.polygon.checks import DYNAMIC_SAFETY, FATIGUE, PRESSURE, RESONANCE, SLACK
 from ptmcalc.machines.chain_drive.polygon.distributed_strand import DISTRIBUTED_STRAND
 from ptmcalc.machines.chain_drive.polygon.effects import EFFECTS
 from ptmcalc.machines.chain_drive.polygon.textbook import CHAIN_TEXTBOOK
-from ptmcalc.machines.chain_drive.spec import ChainDrive
 
 LOADS = (
     LoadInfo("tension_polygon_bound", "polygon-effect tension, upper bound", units.FORCE, headline=False),

@@ -3,9 +3,9 @@
 from ptmcalc.components.steady_drive import Motors
 from ptmcalc.components.steady_drive_checks import SteadyMotors, steady_loads, steady_solver
 from ptmcalc.contract.result import Result
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import chain_line, drive_of, filled, mean_arm
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Run, Start
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.model import chain_line, drive_of, filled, mean_arm
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene, Run, Start
 
 
 def motors_of(spec: ChainDrive) -> dict[str, Motors]:

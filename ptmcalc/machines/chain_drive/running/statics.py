@@ -4,10 +4,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_selection, polygon, sprocket, wave
-from ptmcalc.machines.chain_drive.model import ChainLine, chain_line, driver_wrap, lines
+from ptmcalc.machines.chain_drive.machine.model import ChainLine, chain_line, driver_wrap, lines
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import AT_REST, OF_TENSION, loads_of_tension
 from ptmcalc.machines.chain_drive.polygon.excitation import residual
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import AT_REST, OF_TENSION, loads_of_tension
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:

@@ -3,10 +3,10 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.running.checks_motor import RATING, RESERVE
 from ptmcalc.machines.chain_drive.running.motor_torque import STEADY_DRIVE
 from ptmcalc.machines.chain_drive.running.statics import STATICS
-from ptmcalc.machines.chain_drive.spec import ChainDrive
 
 RUNNING: Topic[ChainDrive] = Topic(
     loads=(

@@ -6,10 +6,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.model import tail_teeth
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import SAFETY
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.machine.model import tail_teeth
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import SAFETY
 
 Loads = Mapping[str, Estimate]
 RUNNING = frozenset({Run})

@@ -8,8 +8,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_fatigue, chain_selection, chain_wear, equalising, sprocket
-from ptmcalc.machines.chain_drive.layout import TwoShafts
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine.layout import TwoShafts
+from ptmcalc.machines.chain_drive.machine.model import (
     ROWS,
     ChainLine,
     centre_distance,
@@ -24,8 +24,8 @@ from ptmcalc.machines.chain_drive.model import (
     useful_pull,
     wrap,
 )
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import of_one_chain, safety
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.strength import of_one_chain, safety
 
 _REFERENCE = 19
 """Teeth of the small sprocket of the charts by ISO 10823:2004. Charts of other numbers are named in the report."""

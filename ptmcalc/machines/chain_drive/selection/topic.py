@@ -3,6 +3,7 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.selection.checks import (
     FAR_SHAFTS,
     LIFE,
@@ -14,7 +15,6 @@ from ptmcalc.machines.chain_drive.selection.checks import (
     WRAP,
 )
 from ptmcalc.machines.chain_drive.selection.solver import CHAIN_SELECTION
-from ptmcalc.machines.chain_drive.spec import ChainDrive
 
 SELECTION: Topic[ChainDrive] = Topic(
     loads=(

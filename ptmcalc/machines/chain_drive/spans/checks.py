@@ -3,8 +3,8 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, no_needs, only
-from ptmcalc.machines.chain_drive.layout import TwoShafts
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run, SpanResonance
+from ptmcalc.machines.chain_drive.machine.layout import TwoShafts
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run, SpanResonance
 
 
 def _asked(spec: ChainDrive, scene: Run) -> bool:

@@ -10,9 +10,9 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import sag
 from ptmcalc.laws.threadline import transverse_frequency
-from ptmcalc.machines.chain_drive.layout import TwoShafts
-from ptmcalc.machines.chain_drive.model import filled, span, tail_teeth, useful_pull
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.machine.layout import TwoShafts
+from ptmcalc.machines.chain_drive.machine.model import filled, span, tail_teeth, useful_pull
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run
 
 FloatArray = NDArray[np.float64]
 

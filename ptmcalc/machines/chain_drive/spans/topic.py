@@ -3,9 +3,9 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.spans.checks import SLACK_SPAN, TIGHT_SPAN
 from ptmcalc.machines.chain_drive.spans.frequencies import SPAN_FREQUENCIES
-from ptmcalc.machines.chain_drive.spec import ChainDrive
 
 SPANS: Topic[ChainDrive] = Topic(
     loads=(

@@ -8,10 +8,10 @@ import numpy as np
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive import loops
-from ptmcalc.machines.chain_drive.loops import HeldStrands
-from ptmcalc.machines.chain_drive.model import chain_line, has_driven_tail, shares_torque
-from ptmcalc.machines.chain_drive.spec import (
+from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.loops import HeldStrands
+from ptmcalc.machines.chain_drive.machine.model import chain_line, shares_torque
+from ptmcalc.machines.chain_drive.machine.spec import (
     ChainDrive,
     ChainScene,
     Coast,
@@ -20,6 +20,7 @@ from ptmcalc.machines.chain_drive.spec import (
     Start,
     Stop,
 )
+from ptmcalc.machines.chain_drive.machine.strength import safety
 from ptmcalc.machines.chain_drive.speed_change.teeth import curve_teeth, range_passing, start_passing
 from ptmcalc.machines.chain_drive.speed_change.tooth_passes import range_loads
 from ptmcalc.machines.chain_drive.starting import bounds as start_bounds
@@ -30,7 +31,6 @@ from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
 from ptmcalc.machines.chain_drive.stopping.formulas import OF_STOP
 from ptmcalc.machines.chain_drive.stopping.motion import StopCase, extremes, stop_case
-from ptmcalc.machines.chain_drive.strength import safety
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]
@@ -353,8 +353,8 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
         P/S_static,   P of `passing.Passing.teeth_bound`;   infinite if the entering strand has no tension
 
-    **Range** any start and any range of speeds; infinite with a driven tail in a range of speeds, on a motor curve and
-    under torques of sprockets that are not synchronised.
+    **Range** any start and any range of speeds, which both sprockets of a driven tail keep; infinite under torques of
+    sprockets that are not synchronised.
     **Error** an upper bound.
     **Source** derived in `chain_start.passing_bound`; the threshold of 5 % is an engineering choice.
     """
@@ -365,11 +365,11 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
 
 
 def _teeth(spec: ChainDrive, scene: Start | SpeedRange) -> float:
-    """The bound of either scene [N]; unbounded for a driven tail in a range of speeds and under shared torques."""
+    """The bound of either scene [N]; unbounded for a driven tail under shared torques."""
     if isinstance(scene, SpeedRange):
-        return math.inf if has_driven_tail(spec) else range_passing(spec, scene).teeth_bound(spec)
+        return range_passing(spec, scene).teeth_bound(spec)
     case = start_case(spec, scene)
-    if (has_driven_tail(spec) and case.follows_curve) or _apart(spec, case):
+    if _apart(spec, case):
         return math.inf
     if not _moves(spec, case):
         return 0.0
@@ -384,8 +384,8 @@ def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Of
     On a motor curve P is the sum of the bounds for a drive whose torque does not depend on its speed, and for a drive
     whose speed does not change (`teeth.curve_teeth`).
 
-    **Range** a taut chain and a sprocket speed that only rises or only falls; with a driven tail unbounded in a range
-    of speeds, on a motor curve and under torques of sprockets that are not synchronised.
+    **Range** a taut chain and a sprocket speed that only rises or only falls, that of both sprockets of a driven tail;
+    unbounded under torques of sprockets that are not synchronised.
     **Error** a bound; see `chain_start.passing_bound`.
     **Source** variation of the input of every mode, derived.
     """

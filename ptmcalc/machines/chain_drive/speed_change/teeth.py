@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ptmcalc.laws import chain_start, polygon, sprocket, start_profile
+from ptmcalc.laws import chain_start, held_strands, polygon, sprocket, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.chain_drive import loops
-from ptmcalc.machines.chain_drive.layout import TwoShafts
-from ptmcalc.machines.chain_drive.loops import HeldStrands
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.layout import TwoShafts
+from ptmcalc.machines.chain_drive.machine.loops import HeldStrands
+from ptmcalc.machines.chain_drive.machine.model import (
     FloatArray,
     damping,
     damping_ratios,
@@ -20,11 +20,10 @@ from ptmcalc.machines.chain_drive.model import (
     of_loop,
     tail_teeth,
 )
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, SpeedRange, Start
 from ptmcalc.machines.chain_drive.polygon.excitation import residual
-from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
-from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case, swinging_loop
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
-from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies as start_frequencies
 from ptmcalc.numerics import tooth_passes
 
 _FOR_BOUNDS = 12
@@ -125,7 +124,8 @@ class Passing:
 
             G^(1/2) (G_h^(1/2) x_h + G_t^(1/2) x_t) + EA/L (e u_h + u_t)      each strand, held at both sprockets
 
-        x_k are the bounds of `chain_start.passing_bound`, x_max the largest of them and of a mode beyond all others.
+        Under a torque the ends of both strands count in the bracket: they move each other through the sprockets. x_k
+        are the bounds of `chain_start.passing_bound`, x_max the largest of them and of a mode beyond all others.
         """
         if isinstance(self.masses, HeldStrands):
             return self._held_bound(spec, self.masses)
@@ -143,13 +143,15 @@ class Passing:
         share, worst = residual(spec), 0.0
         head = share * float(self.follow(spec, spec.sprocket.teeth).max())
         tail = float(self.follow(spec, tail_teeth(spec)).max())
+        stretch = share * self._most_stretch(spec, spec.sprocket.teeth) + self._most_stretch(spec, tail_teeth(spec))
+        roots, pushed = {}, {}
         for strand in (RETURN, CARRY):
             at = (0.0, 1.0) if strand == RETURN else (1.0, 0.0)
             near, far = (math.sqrt(float(loops.tension_green(strands, strand, x))) for x in at)
-            stretch = share * self._most_stretch(spec, spec.sprocket.teeth)
-            stretch += self._most_stretch(spec, tail_teeth(spec))
-            moved = max(near, far) * (near * head + far * tail)
-            worst = max(worst, moved + strands.stiffness_of(strand) * stretch)
+            roots[strand], pushed[strand] = max(near, far), near * head + far * tail
+        for strand in (RETURN, CARRY):
+            ends = pushed[strand] if strands.imposed_speed else sum(pushed.values())
+            worst = max(worst, roots[strand] * ends + strands.stiffness_of(strand) * stretch)
         return worst
 
     def _most_stretch(self, spec: ChainDrive, teeth: int) -> float:
@@ -164,24 +166,31 @@ class Passing:
         (R_s R_on)^(1/2) x_max + (R_s R_off)^(1/2) x_max + 2 |e| R sum |M_k(s)|,   R_s = G_s - sum B_k(s)^2/M_belt
         """
         follow = residual(spec) * float(self.follow(spec, spec.sprocket.teeth)[-2:].max())
-
-        def rest(strand: int, x: FloatArray) -> FloatArray:
-            taken = np.sum(self.shapes(strand, x) ** 2, axis=0) / self.masses.belt_mass
-            return np.asarray(np.sqrt(np.maximum(loops.tension_green(self.masses, strand, x) - taken, 0.0)))
-
         if isinstance(self.masses, HeldStrands):
-            tail = float(self.follow(spec, tail_teeth(spec))[-2:].max())
-            near, far = (np.zeros(1), _END) if strand == RETURN else (_END, np.zeros(1))
-            ends = float(rest(strand, near)[0]) * follow + float(rest(strand, far)[0]) * tail
-            begun = loops.modal_rest(self.masses, self.frequencies, strand, x)
-            return np.asarray(rest(strand, x) * ends + 2 * self.sharpest * begun)
-        ends = float(rest(CARRY, _END)[0]) * follow
+            tail, ends = float(self.follow(spec, tail_teeth(spec))[-2:].max()), 0.0
+            for one in (strand,) if self.masses.imposed_speed else (RETURN, CARRY):
+                near, far = (np.zeros(1), _END) if one == RETURN else (_END, np.zeros(1))
+                ends += float(self._rest(one, near)[0]) * follow + float(self._rest(one, far)[0]) * tail
+            begun = loops.modal_rest(self.masses, self._moved_by_start, strand, x)
+            return np.asarray(self._rest(strand, x) * ends + 2 * self.sharpest * begun)
+        ends = float(self._rest(CARRY, _END)[0]) * follow
         if self.masses.fixed_length:
-            ends += float(rest(RETURN, np.zeros(1))[0]) * follow
-        if isinstance(spec.layout, TwoShafts):
-            ends += float(rest(CARRY, np.zeros(1))[0]) * float(self.follow(spec, tail_teeth(spec))[-2:].max())
+            ends += float(self._rest(RETURN, np.zeros(1))[0]) * follow
         begun = loops.modal_rest(self.masses, self.frequencies, strand, x)
-        return np.asarray(rest(strand, x) * ends + 2 * self.sharpest * begun)
+        driven = self.driven_left_out(spec, strand, x)
+        return np.asarray(self._rest(strand, x) * ends + driven + 2 * self.sharpest * begun)
+
+    def driven_left_out(self, spec: ChainDrive, strand: int, x: FloatArray) -> FloatArray:
+        """The same of the teeth of the driven one of two sprockets, shape (n,) [N]."""
+        if not isinstance(spec.layout, TwoShafts):
+            return np.zeros(len(x))
+        follow = float(self.follow(spec, tail_teeth(spec))[-2:].max())
+        return np.asarray(self._rest(strand, x) * float(self._rest(CARRY, np.zeros(1))[0]) * follow)
+
+    def _rest(self, strand: int, x: FloatArray) -> FloatArray:
+        """R_s^(1/2) of `left_out`, shape (n,) [kg^(1/2)]."""
+        taken = np.sum(self.shapes(strand, x) ** 2, axis=0) / self.masses.belt_mass
+        return np.asarray(np.sqrt(np.maximum(loops.tension_green(self.masses, strand, x) - taken, 0.0)))
 
     def ahead(self, spec: ChainDrive, teeth: int | None = None) -> float:
         """Most that a polygon, of the driving sprocket or of these teeth, lets the chain run ahead of its mean motion
@@ -198,13 +207,22 @@ class Passing:
         return 1 / (self.masses.carry_compliance + self.masses.return_compliance)
 
     @property
+    def _moved_by_start(self) -> FloatArray:
+        """Frequencies of the modes taken that the mean acceleration moves [rad/s]."""
+        if not isinstance(self.masses, HeldStrands) or self.masses.imposed_speed:
+            return self.frequencies
+        return np.array([w for w in of_loop(self.masses, 0.0, len(self.frequencies)) if w <= self.frequencies[-1]])
+
+    @property
     def excited_by_start(self) -> FloatArray:
         """What excites each mode per mean acceleration, as `modal_shapes` at an end do per polygon's [kg]."""
         if not self.started:
             return np.zeros(len(self.frequencies))
         if isinstance(self.masses, HeldStrands):
             ends = (self.shapes(strand, _END) - self.shapes(strand, np.zeros(1)) for strand in (RETURN, CARRY))
-            return np.asarray(sum(ends))[:, 0]
+            strands = self.masses.return_mass + self.masses.carry_mass
+            share = 1.0 if self.masses.imposed_speed else self.masses.total_mass / (self.masses.total_mass - strands)
+            return np.asarray(share * sum(ends))[:, 0]
         share = 1.0 if self.masses.imposed_speed else self.masses.total_mass / self.masses.drive_mass
         return share * (self.shapes(CARRY, _END) - self.shapes(RETURN, np.zeros(1)))[:, 0]
 
@@ -219,9 +237,11 @@ def swinging(damping_ratios: FloatArray) -> int:
 
 
 def range_passing(spec: ChainDrive, scene: SpeedRange, count: int = _FOR_BOUNDS) -> Passing:
-    """A range of speeds through which the sprocket is turned evenly faster or slower."""
-    masses = loop_masses(spec, scene)
+    """A range of speeds through which the sprocket, and a driven tail, is turned evenly faster or slower."""
+    masses = swinging_loop(spec, loop_masses(spec, scene))
     w = natural_frequencies(spec, scene, count=count)
+    if isinstance(masses, HeldStrands):
+        w = np.array(of_loop(masses, 0.0, count))
     w = w[: swinging(damping_ratios(damping(spec, scene), w))]
     first, last, time = scene.start, scene.end, scene.time
     rate = (last - first) / time
@@ -239,13 +259,19 @@ def range_passing(spec: ChainDrive, scene: SpeedRange, count: int = _FOR_BOUNDS)
     )
 
 
+def _moved_by_teeth(masses: LoopMasses, count: int) -> FloatArray:
+    """The lowest natural frequencies: of coupled sprockets also those of modes that leave them at rest, which only the
+    teeth move [rad/s]."""
+    if isinstance(masses, HeldStrands) and not masses.imposed_speed:
+        return held_strands.all_frequencies(masses, count)
+    return np.array(of_loop(masses, 0.0, count))
+
+
 def start_passing(spec: ChainDrive, scene: Start, count: int = _FOR_BOUNDS) -> Passing:
     """The teeth of a start, its sprocket turned as the rigid body is."""
     case = start_case(spec, scene)
     way, speed, acceleration, kinks = _motion(case)
-    w = start_frequencies(case, count)
-    if isinstance(case.masses, HeldStrands) and not case.imposed_speed:  # the teeth move all modes, for their bound
-        w = np.sort(np.concatenate([w, of_loop(replace(case.masses, imposed_speed=True), 0.0, count)]))
+    w = _moved_by_teeth(case.masses, count)
     w = w[: swinging(ratios(spec, scene, w))]
     return Passing(
         masses=case.masses,
@@ -270,6 +296,9 @@ def curve_teeth(spec: ChainDrive, scene: Start) -> float:
     that of motors whose torque falls with the speed. S_m is the tension of a torque that does not depend on the speed,
     S_v that of a constant speed. Imaginary parts of H and B have one sign: no weight exceeds 1.
 
+    The teeth of both sprockets of a driven tail that is synchronised move either strand, at both ends: with u_j at an
+    end j, S_v = sum c_j u_j and S_m = sum (c_j - c H_j/(H + A)) u_j, and the same weights.
+
     **Range** any start; infinite where the motors do not move the chain.
     **Error** a bound for every harmonic of a motor line of constant slope; the change of slope during the start, and
     the slow growth where the torque rises with the speed, are not in it.
@@ -288,7 +317,7 @@ def curve_passings(spec: ChainDrive, scene: Start, count: int = _FOR_BOUNDS) -> 
         return ()
     passings = []
     for masses in (case.masses, replace(case.masses, drive_mass=0.0, imposed_speed=True)):
-        w = np.array(of_loop(masses, 0.0, count))
+        w = _moved_by_teeth(masses, count)
         w = w[: swinging(ratios(spec, scene, w))]
         passings.append(
             Passing(

@@ -9,17 +9,25 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import polygon, sprocket
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive import loops
-from ptmcalc.machines.chain_drive.layout import TwoShafts
-from ptmcalc.machines.chain_drive.loops import HeldStrands
-from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, has_driven_tail, tail_teeth
+from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.layout import TwoShafts
+from ptmcalc.machines.chain_drive.machine.loops import HeldStrands
+from ptmcalc.machines.chain_drive.machine.model import (
+    FloatArray,
+    chain_line,
+    has_driven_tail,
+    shares_torque,
+    tail_teeth,
+)
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, SpeedRange, Start
+from ptmcalc.machines.chain_drive.machine.strength import safety
 from ptmcalc.machines.chain_drive.polygon.excitation import far_place, residual
-from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
 from ptmcalc.machines.chain_drive.speed_change.teeth import (
     Passing,
     range_passing,
@@ -28,6 +36,7 @@ from ptmcalc.machines.chain_drive.speed_change.teeth import (
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, start_case
 from ptmcalc.machines.chain_drive.starting.waves import (
+    TORQUE_SHARED,
     Sections,
     beyond_slack,
     one_section,
@@ -35,7 +44,6 @@ from ptmcalc.machines.chain_drive.starting.waves import (
     sections_of,
     travel_time,
 )
-from ptmcalc.machines.chain_drive.strength import safety
 from ptmcalc.numerics import tooth_passes
 
 _LEADS = 2
@@ -135,6 +143,20 @@ def _leads(passing: Passing) -> int:
     return _LEADS_HELD if isinstance(passing.masses, HeldStrands) else _LEADS
 
 
+def driven_teeth_alone(spec: ChainDrive, passings: tuple[Passing, ...], case: StartCase) -> TeethAlone:
+    """The same of the teeth of the driven one of two sprockets; none of a conveyor."""
+    if not isinstance(spec.layout, TwoShafts):
+        return TeethAlone(0.0, 0.0, 0.0, 0)
+    entering, anywhere = 0.0, 0.0
+    for one in passings:
+        sections = sections_of(case, len(one.frequencies))
+        found = _by_the_driven(spec, one, sections)
+        found = found + np.concatenate([one.driven_left_out(spec, strand, x) for strand, x in (_RUN_ON, *sections)])
+        entering += float(found[0])
+        anywhere += float(found[1:].max())
+    return TeethAlone(entering, anywhere, anywhere, 0)
+
+
 def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) -> _Found:
     """Every mode through the passes of the teeth at both ends, for several places of the first joint.
 
@@ -176,14 +198,24 @@ _RUN_ON = CARRY, np.ones(1)
 Watch = Callable[[FloatArray, FloatArray], None]
 
 
+@kept_for(8)
+def _shapes_of(
+    passing: Passing, sections: Sections
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    """What excites each mode: the mean acceleration, the entering and the leaving chain at the driving sprocket, the
+    chain at a driven tail; and what the modes add to the tension at the run-on and at sections."""
+    on, off = passing.shapes(*_RUN_ON)[:, 0], passing.shapes(RETURN, np.zeros(1))[:, 0]
+    far = passing.shapes(RETURN, np.ones(1))[:, 0] - passing.shapes(CARRY, np.zeros(1))[:, 0]
+    gains = np.concatenate([passing.shapes(strand, x) for strand, x in (_RUN_ON, *sections)], axis=1)
+    return passing.excited_by_start, on, off, far, gains / passing.masses.belt_mass
+
+
 def _ridden(
     spec: ChainDrive, passing: Passing, sections: Sections, lead: float, watch: Watch | None = None
 ) -> tooth_passes.Passing:
     """All passes when the first joint is a lead behind its engagement."""
-    share, begun, teeth = residual(spec), passing.excited_by_start, spec.sprocket.teeth
-    on, off = passing.shapes(*_RUN_ON)[:, 0], passing.shapes(RETURN, np.zeros(1))[:, 0]
-    gains = np.concatenate([passing.shapes(strand, x) for strand, x in (_RUN_ON, *sections)], axis=1)
-    gains /= passing.masses.belt_mass
+    share, teeth = residual(spec), spec.sprocket.teeth
+    begun, on, off, _, gains = _shapes_of(passing, sections)
     behind = np.concatenate([loops.quasi_static(passing.masses, *one) for one in (_RUN_ON, *sections)])
     behind = (
         behind * passing.started - begun @ gains
@@ -254,9 +286,8 @@ def _by_the_tail(spec: ChainDrive, passing: Passing, sections: Sections, lead: f
     """
     teeth, held = tail_teeth(spec), passing.masses
     assert isinstance(held, HeldStrands)
-    far = passing.shapes(RETURN, np.ones(1))[:, 0] - passing.shapes(CARRY, np.zeros(1))[:, 0]
+    _, _, _, far, gains = _shapes_of(passing, sections)
     places = (_RUN_ON, *sections)
-    gains = np.concatenate([passing.shapes(strand, x) for strand, x in places], axis=1)
     springs = np.concatenate(
         [np.full(len(x), held.stiffness_of(strand) * (1 if strand == RETURN else -1)) for strand, x in places]
     )
@@ -274,7 +305,7 @@ def _by_the_tail(spec: ChainDrive, passing: Passing, sections: Sections, lead: f
         moved,
         passing.frequencies,
         passing.damping_ratios,
-        gains / passing.masses.belt_mass,
+        gains,
         followed,
     )
     return np.asarray(np.maximum(found.largest, -found.smallest) + found.error)
@@ -311,7 +342,8 @@ def through(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], level:
         S = sum M_k x_k,   x_k'' + 2 zeta_k w_k x_k' + w_k^2 x_k = w_k^2 a + 2 zeta_k w_k a'
         a = e R cos(phi) - w^2 R sin(phi)
 
-    Every tooth engagement has its own state transition, so that slow and sharp resonances are resolved.
+    Every tooth engagement has its own state transition, so that slow and sharp resonances are resolved. A driven tail
+    keeps the speed of the sprocket; its teeth are in the error bar.
 
     **Range** a sprocket with a linear speed change that the chain does not influence; modes at standstill at the
     beginning of the range; in a loop of fixed length the damping of the elongation by the teeth is neglected.
@@ -407,21 +439,6 @@ def cost_of_teeth(spec: ChainDrive, passing: Passing, sections: int, level: int)
     return 5e-3 + (_leads(passing) << level) * places * len(passing.frequencies) * (_SECONDS + _PER_SECTION * sections)
 
 
-def range_valid(spec: ChainDrive, scene: SpeedRange) -> Criterion:
-    """Whether only its own teeth move the chain.
-
-        n = 1 for a tail that another drive turns
-
-    **Range** any range of speeds.
-    **Error** exact: a count.
-    **Source** polygon effect at both ends.
-    """
-    own = has_driven_tail(spec)
-    return Criterion(
-        "n", float(own), 1.0, "driven tail: its teeth are not followed" if own else "driven tails: none", "count"
-    )
-
-
 def start_valid(spec: ChainDrive, scene: Start) -> Criterion:
     """Whether the speed of a start is known over time.
 
@@ -433,8 +450,8 @@ def start_valid(spec: ChainDrive, scene: Start) -> Criterion:
     """
     case = start_case(spec, scene)
     unknown = case.follows_curve or not case.moves
-    if has_driven_tail(spec) and not case.imposed_speed:
-        return Criterion("n", 1.0, 1.0, "start by torque with a driven tail: its teeth are bounded as a whole", "count")
+    if shares_torque(spec) and not case.imposed_speed:
+        return TORQUE_SHARED
     return Criterion("n", float(unknown), 1.0, "motor curves: none", "count")
 
 
@@ -460,7 +477,6 @@ RANGE: Solver[ChainDrive, SpeedRange] = Solver(
     run=through,
     cost=lambda spec, scene, carried, level: cost_of_teeth(spec, range_passing(spec, scene, _MODES << level), 1, level),
     source="derived in ptmcalc.numerics.run_through",
-    valid=range_valid,
     always=frozenset({"tooth_passing"}),
     levels=3,
 )

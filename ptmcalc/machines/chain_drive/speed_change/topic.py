@@ -3,7 +3,7 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.speed_change.effects import EFFECTS_OF_MOTION
 from ptmcalc.machines.chain_drive.speed_change.motor_teeth import MOTOR_TEETH
 from ptmcalc.machines.chain_drive.speed_change.tooth_passes import RANGE, RANGE_NOTES, START_TEETH

@@ -12,10 +12,10 @@ import numpy as np
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.laws.start_profile import Phase
-from ptmcalc.machines.chain_drive import loops, strength
-from ptmcalc.machines.chain_drive.loops import HeldStrands
-from ptmcalc.machines.chain_drive.model import FloatArray
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine import loops, strength
+from ptmcalc.machines.chain_drive.machine.loops import HeldStrands
+from ptmcalc.machines.chain_drive.machine.model import FloatArray
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, Swinging
 
 _X = np.linspace(0.0, 1.0, 129)

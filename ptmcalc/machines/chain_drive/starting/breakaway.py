@@ -7,8 +7,8 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import start_profile
-from ptmcalc.machines.chain_drive.model import has_driven_tail
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.machine.model import has_driven_tail
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case
 from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies

@@ -8,9 +8,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, no_needs
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import drive_of, tension_key
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.model import drive_of, tension_key
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.motion import start_case
 
 Loads = Mapping[str, Estimate]

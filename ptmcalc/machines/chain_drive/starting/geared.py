@@ -7,8 +7,8 @@ import numpy as np
 
 from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.starting_gear import SoftStarter, in_star
-from ptmcalc.machines.chain_drive.model import chain_line, drive_of, mean_arm
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Drive, Start
+from ptmcalc.machines.chain_drive.machine.model import chain_line, drive_of, mean_arm
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Drive, Start
 from ptmcalc.machines.chain_drive.starting.motion import UP_TO, rigid_acceleration, start_factor
 from ptmcalc.numerics.belt.curve import MotorForce
 

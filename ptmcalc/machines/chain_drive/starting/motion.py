@@ -12,10 +12,10 @@ import numpy as np
 
 from ptmcalc.laws import chain_start, start_profile
 from ptmcalc.laws.loop_bounds import LoopMasses
-from ptmcalc.machines.chain_drive import loops
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.loops import HeldStrands
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.machine.loops import HeldStrands
+from ptmcalc.machines.chain_drive.machine.model import (
     ChainLine,
     FloatArray,
     chain_line,
@@ -28,7 +28,7 @@ from ptmcalc.machines.chain_drive.model import (
     mean_arm,
     sprocket_inertia,
 )
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene, Start
 from ptmcalc.numerics.mode_sum import Course
 
 _LIGHT = 1e-12

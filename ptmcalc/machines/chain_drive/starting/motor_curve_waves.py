@@ -12,16 +12,17 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.model import FloatArray, has_driven_tail
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.alike import moving_alike
+from ptmcalc.machines.chain_drive.machine.model import FloatArray, shares_torque
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, sprocket_mass, start_case
 from ptmcalc.machines.chain_drive.starting.motor_force import StartForce, gear_of, stands_still, start_force
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start
 from ptmcalc.machines.chain_drive.starting.waves import (
-    CURVE_SHARED,
+    TORQUE_SHARED,
     Sections,
     beyond_slack,
     felt,
@@ -42,13 +43,13 @@ _UNRESOLVED = 0.05
 A smaller share takes more steps."""
 _TURN = 0.5
 """That angle [rad]."""
-_RESPONSE = 1.0
+RESPONSE = 1.0
 """Longest step relative to the time constant of drive mass and steepest torque of a stage [1]. A numerical choice:
 longer steps ring about the operating point."""
-_LEFT = 1e-3
+LEFT = 1e-3
 """Tension that may be left to come at the end of a run, relative to the static tension at the entering strand [1]. A
 numerical choice, in the error bar. A smaller value follows the chain longer."""
-_ORDERS = 0.5, 2.0
+ORDERS = 0.5, 2.0
 """Observed orders of convergence on which the error of the step is judged; the theoretical one is 2."""
 _SPEEDS = 0.2, 0.4, 0.6, 0.8
 """Shares of the largest speed of the rigid chain between which the extremes are kept apart [1]: teeth add little to
@@ -82,7 +83,7 @@ def curve_start_of(spec: ChainDrive, scene: Start, level: int) -> CurveStart:
     case = start_case(spec, scene)
     force, loop = start_force(spec, case), case.masses
     w = natural_frequencies(case, felt(spec, scene, case, _MODES << level))
-    shares, rest = chain_resonance.drive_mobilities(loop, w)
+    shares, rest = loops.drive_mobilities(loop, w)
     gear = gear_of(spec, case)
     spare = max(gear.mass * (1 / (1 - gear.extra) - 1), 0.0)
     body = Body(loop.total_mass, w, ratios(spec, scene, w), shares, rest, spare)
@@ -104,12 +105,10 @@ def _places(spec: ChainDrive, start: CurveStart, sections: Sections) -> Places:
     loop, w, case = start.case.masses, start.body.frequencies, start.case
     whole = loop.total_mass
     all_places: Sections = ((CARRY, np.ones(1)), *sections)
-    gains = np.concatenate([chain_resonance.modal_tensions(loop, w, *one) for one in all_places], axis=1)
-    quasi = np.concatenate([loop_bounds.quasi_static(loop, *one) for one in all_places])
-    rest = np.concatenate([chain_resonance.modal_rest(loop, w, *one) for one in all_places])
-    masses = np.concatenate([loop_bounds.mass_behind(loop, *one) for one in all_places])
-    if loop.fixed_length:
-        masses = np.maximum(masses, loop.belt_mass - masses)
+    gains = np.concatenate([loops.modal_tensions(loop, w, *one) for one in all_places], axis=1)
+    quasi = np.concatenate([loops.quasi_static(loop, *one) for one in all_places])
+    rest = np.concatenate([loops.modal_rest(loop, w, *one) for one in all_places])
+    masses = np.concatenate([loops.swung_mass(loop, *one) for one in all_places])
     behind = start.gear.mass
     gains = np.concatenate(
         [gains[:, :1] / whole, behind * start.body.mobilities[:, None], gains[:, 1:] / whole], axis=1
@@ -130,7 +129,8 @@ ON, SHAFT, ALONG = 0, 1, 2
 class Judged:
     """A start with its bars: dynamic tension at the entering strand, largest and smallest force through the sprocket
     shaft, smallest tension anywhere, bound of the largest leaving tension [N]; ends of the parts of the start [s],
-    bounds of the dynamic entering tension and of the smallest tension in each [N]; where and when they act."""
+    bounds of the dynamic entering tension and of the smallest tension in each [N], what may come of both after the end;
+    where and when they act."""
 
     dynamic: Estimate
     most: Estimate
@@ -138,6 +138,7 @@ class Judged:
     smallest: Estimate
     leaving: float
     parts: tuple[tuple[float, float, float], ...]
+    late: tuple[float, float]
     times: tuple[float, float]
     where: dict[str, float]
     end: float
@@ -153,7 +154,7 @@ def judged(spec: ChainDrive, scene: Start, level: int) -> Judged:
     Raises:
         NumericsError: NUM101 where it takes too many steps.
     """
-    found = _judged(spec, scene, level)
+    found = _judged(*moving_alike(spec, scene), level)
     if isinstance(found, NumericsError):
         raise found
     return found
@@ -178,7 +179,7 @@ def _steps(start: CurveStart) -> float:
     window = _START_TIMES * (case.end if math.isfinite(case.end) else 0.0)
     window += max([3 * force.motors.fill, *force.kinks]) + _PERIODS * 2 * math.pi / float(start.body.frequencies[0])
     steep = max(force.steepest(stage) for stage in range(len(force.motors.stages)))
-    step = min(start.step, _RESPONSE * start.body.drive_mass / steep) if steep > 0 else start.step
+    step = min(start.step, RESPONSE * start.body.drive_mass / steep) if steep > 0 else start.step
     return window / step
 
 
@@ -192,15 +193,15 @@ def _marched(spec: ChainDrive, scene: Start, start: CurveStart) -> Judged:
     case, count = start.case, len(start.body.frequencies)
     sections = sections_of(case, count)
     places = _places(spec, start, sections)
-    left = _LEFT * abs(case.line.run_on)
-    plan = Plan(start.force.release, start.step, _RESPONSE, left, count, scene.window_factor, marks=start.marks)
+    left = LEFT * abs(case.line.run_on)
+    plan = Plan(start.force.release, start.step, RESPONSE, left, count, scene.window_factor, marks=start.marks)
     fine = _follow(start, places, plan)
     short = replace(plan, latest=fine.end, longer=1.0)
     middle, coarse = (_follow(start, places, short.coarser(factor)) for factor in (2, 4))
     fewer = _follow(start, places, replace(short.coarser(4), felt=max(count // 2, 1)))
     first, second = _apart(fine, middle), _apart(middle, coarse)
-    order = min(max(math.log2(second / first), _ORDERS[0]), _ORDERS[1]) if 0 < first < second else _ORDERS[0]
-    off = (first / (2**order - 1) if first else 0.0) + _unfollowed(start.body, count // 2) * _apart(coarse, fewer)
+    order = min(max(math.log2(second / first), ORDERS[0]), ORDERS[1]) if 0 < first < second else ORDERS[0]
+    off = (first / (2**order - 1) if first else 0.0) + unfollowed(start.body, count // 2) * _apart(coarse, fewer)
     return _with_bars(start, sections, fine, off, order)
 
 
@@ -213,7 +214,7 @@ def _apart(one: Followed, other: Followed) -> float:
     return max(float(np.abs(one.largest - other.largest).max()), float(np.abs(one.smallest - other.smallest).max()))
 
 
-def _unfollowed(body: Body, half: int) -> float:
+def unfollowed(body: Body, half: int) -> float:
     """Share of the modes left out in the speed of the drive, relative to the upper half of those taken [1]."""
     taken = float(np.sum(body.mobilities[half:] / body.frequencies[half:]))
     return body.left_out / float(body.frequencies[-1]) / taken if taken > 0 else 1.0
@@ -235,7 +236,7 @@ def _with_bars(start: CurveStart, sections: Sections, found: Followed, off: floa
     static = np.concatenate([static_at(case, strand, x) for strand, x in sections])
     values = static + found.smallest[ALONG:]
     which = int(values.argmin())
-    between = _between_sections(start, sections, found)
+    between = between_sections(start, sections, found)
     lows = static + np.minimum(found.smallest_low[ALONG:] - between, 0.0)
     least, late = float(lows.min()) - off, float((static - after[ALONG:]).min())
     value = float(values[which])
@@ -250,6 +251,7 @@ def _with_bars(start: CurveStart, sections: Sections, found: Followed, off: floa
         smallest,
         case.line.run_off + float(max(found.largest_high[ALONG], after[ALONG])) + off,
         _by_parts(start, static, found, off, between),
+        (float(after[ON]), float(after[ALONG:].max())),
         (float(found.largest_time[ON]), float(found.largest_time[SHAFT])),
         {"time": float(found.smallest_time[ALONG + which]), "position": position_of(case, sections, which)},
         found.end,
@@ -274,12 +276,12 @@ def _by_parts(
     return tuple(parts)
 
 
-def _between_sections(start: CurveStart, sections: Sections, found: Followed) -> float:
+def between_sections(start: CurveStart, sections: Sections, found: Followed) -> float:
     """What a tension can fall between two sections: an eighth of its bend, |M_k''| <= (w t)^2 |M_k| [N]."""
     loop, w = start.case.masses, start.body.frequencies
     worst = 0.0
     for strand, x in sections:
-        gains = np.abs(chain_resonance.modal_tensions(loop, w, strand, x)).max(axis=1) / loop.total_mass
+        gains = np.abs(loops.modal_tensions(loop, w, strand, x)).max(axis=1) / loop.total_mass
         bend = (w * travel_time(start.case, strand) * float(x[1])) ** 2 / 8
         worst = max(worst, float(np.sum(bend * gains * found.swings)))
     return worst
@@ -293,7 +295,8 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
 
     v is the speed of the sprocket, M_k and r as in `chain_start_waves`, g_k of `chain_resonance.drive_mobilities`. The
     chain is held until the motors pull more than it resists. The gear loses e = eta or 1/eta by the sign of the force
-    that it transmits. The chain is followed down the curve to the operating speed of the motors.
+    that it transmits. The chain is followed down the curve to the operating speed of the motors. Sprockets of a driven
+    tail that are synchronised are one mass with the drive (`laws.held_strands`).
 
     **Range** a taut chain that slides forward; hysteretic and Zener damping by the ratio of each mode.
     **Error** samples, neglected modes, sections and the time after the end by bounds; steps by halving with the
@@ -326,18 +329,18 @@ def histories(spec: ChainDrive, scene: Start, level: int) -> dict[str, History]:
     start = curve_start_of(spec, scene, level)
     count = len(start.body.frequencies)
     places = _places(spec, start, ((RETURN, np.zeros(1)),))
-    left = _LEFT * abs(start.case.line.run_on)
-    plan = Plan(start.force.release, start.step, _RESPONSE, left, count, keep=True)
+    left = LEFT * abs(start.case.line.run_on)
+    plan = Plan(start.force.release, start.step, RESPONSE, left, count, keep=True)
     found = _follow(start, places, plan)
     seen = np.concatenate([np.zeros((1, 2)), *found.samples])
     peak = int(seen[:, 1].argmax())
-    kept = np.unique(np.concatenate([np.arange(0, len(seen), max(len(seen) // _SHOWN, 1)), [peak, len(seen) - 1]]))
+    kept = np.unique(np.concatenate([np.arange(0, len(seen), max(len(seen) // SHOWN, 1)), [peak, len(seen) - 1]]))
     times, order = np.unique(seen[kept, 0], return_index=True)
     tensions = start.case.line.run_on + seen[kept, 1][order]
     return {"tension_start": History(units.FORCE, times.tolist(), tensions.tolist())}
 
 
-_SHOWN = 2000
+SHOWN = 2000
 """Samples of a history; a numerical choice. More draw it more smoothly and need memory; no load depends on them."""
 
 
@@ -352,8 +355,8 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     **Source** Newton's law.
     """
     case = start_case(spec, scene)
-    if case.follows_curve and has_driven_tail(spec):
-        return CURVE_SHARED
+    if case.follows_curve and shares_torque(spec):
+        return TORQUE_SHARED
     count = (not case.follows_curve) + (case.follows_curve and stands_still(spec, case))
     meaning = "no motor curve, insufficient torque at standstill: none of them"
     return Criterion("n", float(count), 1.0, meaning, "count")

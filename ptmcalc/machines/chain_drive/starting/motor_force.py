@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ptmcalc.base.memory import kept_for
-from ptmcalc.machines.chain_drive.model import FloatArray, drive_of, filled, gear_side_inertia, mean_arm
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.model import FloatArray, drive_of, filled, gear_side_inertia, mean_arm
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.starting.geared import motor_torque_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase
 from ptmcalc.numerics.belt.curve import MotorForce

@@ -15,8 +15,8 @@ from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_repair
 from ptmcalc.contract.limits import key
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.laws import loop_bounds, slip_heat, start_profile
-from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, drive_of, filled, mean_arm
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Run, Start
+from ptmcalc.machines.chain_drive.machine.model import FloatArray, chain_line, drive_of, filled, mean_arm
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Run, Start
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, speed_over_time
 from ptmcalc.machines.chain_drive.starting.motor_force import start_force
 from ptmcalc.machines.chain_drive.starting.rigid_curve import rigid_start

@@ -9,7 +9,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_start, inertia, wave
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine.model import (
     drive_of,
     filled,
     gear_side_inertia,
@@ -18,7 +18,7 @@ from ptmcalc.machines.chain_drive.model import (
     shares_torque,
     sprocket_inertia,
 )
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, rigid_tensions
 from ptmcalc.machines.chain_drive.starting.geared import geared_start
 from ptmcalc.machines.chain_drive.starting.motion import (

@@ -10,9 +10,9 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive import loops
-from ptmcalc.machines.chain_drive.model import FloatArray
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.model import FloatArray
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting.bounds import static_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, start_case
 from ptmcalc.machines.chain_drive.starting.motor_force import gear_of, start_force

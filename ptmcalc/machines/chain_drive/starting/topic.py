@@ -3,7 +3,7 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.starting.breakaway import BREAKAWAY
 from ptmcalc.machines.chain_drive.starting.checks import SLACK, SLOW, STRENGTH, WEAK
 from ptmcalc.machines.chain_drive.starting.motor_curve_waves import MOTOR_WAVES

@@ -12,9 +12,9 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive import loops
-from ptmcalc.machines.chain_drive.model import FloatArray, has_driven_tail, of_loop, shares_torque, tension_key
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
+from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.model import FloatArray, has_driven_tail, of_loop, shares_torque, tension_key
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive, ChainScene, Start
 from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, Swinging, ratios, start_case
 from ptmcalc.numerics.mode_sum import Modes, Peaks, kicks, mode_sum, sampled
@@ -339,16 +339,6 @@ def _waves_cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: 
     return 5e-3 + 1e-7 * _samples(case, count) * count + _SECONDS / 20 * _samples(case, along) * along * sections
 
 
-CURVE_SHARED = Criterion(
-    "n",
-    1.0,
-    1.0,
-    "motor curve with a driven tail: how both drives share the torque is not known",
-    "count",
-)
-"""Why a start on a motor curve is not followed where the tail has a drive of its own."""
-
-
 TORQUE_SHARED = Criterion(
     "n", 1.0, 1.0, "driven tail that is not synchronised: how both drives share the torque is not known", "count"
 )
@@ -365,8 +355,6 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     **Source** Newton's law; a torque that goes with the speed damps and drives the modes.
     """
     case = start_case(spec, scene)
-    if has_driven_tail(spec) and case.follows_curve:
-        return CURVE_SHARED
     if shares_torque(spec) and not case.imposed_speed:
         return TORQUE_SHARED
     count = (not case.moves) + case.follows_curve

@@ -10,8 +10,8 @@ from ptmcalc.components.run_back import held_torque, rollback_check
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs
 from ptmcalc.contract.limits import fixed, key
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.spec import (
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.spec import (
     ChainDrive,
     ChainScene,
     Coast,

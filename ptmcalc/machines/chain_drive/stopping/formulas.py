@@ -12,8 +12,8 @@ from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.chain_drive.holding.scenes import elsewhere
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import (
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.model import (
     ChainLine,
     FloatArray,
     chain_line,
@@ -22,7 +22,7 @@ from ptmcalc.machines.chain_drive.model import (
     radius,
     shares_torque,
 )
-from ptmcalc.machines.chain_drive.spec import (
+from ptmcalc.machines.chain_drive.machine.spec import (
     ChainDrive,
     ChainScene,
     Coast,
@@ -33,6 +33,7 @@ from ptmcalc.machines.chain_drive.spec import (
     Stop,
     Stopping,
 )
+from ptmcalc.machines.chain_drive.machine.strength import safety
 from ptmcalc.machines.chain_drive.starting.motion import speed_over_time
 from ptmcalc.machines.chain_drive.starting.waves import (
     TORQUE_SHARED,
@@ -53,7 +54,6 @@ from ptmcalc.machines.chain_drive.stopping.motion import (
     stop_factor,
     swings,
 )
-from ptmcalc.machines.chain_drive.strength import safety
 from ptmcalc.spec.scene import Scene
 
 OF_STOP = frozenset({"tension_min", "safety_start", "tension_overload_braking"})

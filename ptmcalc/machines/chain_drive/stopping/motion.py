@@ -12,10 +12,25 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.chain_drive import loops
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import ChainLine, chain_line, drive_of, filled, mean_arm, motor_side_inertia
-from ptmcalc.machines.chain_drive.spec import Brake, ChainDrive, ChainScene, Coast, EmergencyStop, Stop, Stopping
+from ptmcalc.machines.chain_drive.machine import loops
+from ptmcalc.machines.chain_drive.machine.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.machine.model import (
+    ChainLine,
+    chain_line,
+    drive_of,
+    filled,
+    mean_arm,
+    motor_side_inertia,
+)
+from ptmcalc.machines.chain_drive.machine.spec import (
+    Brake,
+    ChainDrive,
+    ChainScene,
+    Coast,
+    EmergencyStop,
+    Stop,
+    Stopping,
+)
 from ptmcalc.machines.chain_drive.starting.motion import sprocket_mass, swinging_loop
 from ptmcalc.numerics.mode_sum import Course
 

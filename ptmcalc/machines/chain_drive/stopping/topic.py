@@ -3,7 +3,7 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.machine.spec import ChainDrive
 from ptmcalc.machines.chain_drive.stopping.checks import CHECKS_OF_STOPS
 from ptmcalc.machines.chain_drive.stopping.formulas import SOLVERS_OF_STOPS
 

@@ -12,10 +12,11 @@ from ptmcalc.contract.limits import key
 from ptmcalc.contract.result import of
 from ptmcalc.laws import horizontal_curve
 from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST, STRANDS, loads_on, states
-from ptmcalc.machines.conveyor.keys.route import Bend
-from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.machine.keys.route import Bend
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Jam, Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.checks_belt import bend_key
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Run
 
 Loads = Mapping[str, Estimate]
 

@@ -4,9 +4,10 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo, of
-from ptmcalc.machines.conveyor.keys.route import Bend
-from ptmcalc.machines.conveyor.loading import choices, filling_of, in_operation, load_line_mass, pieces
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.keys.route import Bend
+from ptmcalc.machines.conveyor.machine.loading import choices, filling_of, in_operation, load_line_mass, pieces
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 LEAST, MOST = "tension_bend_min", "tension_bend_max"
 

@@ -7,9 +7,10 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.conveyor.curves.loads import LEAST, MOST, bend_names
-from ptmcalc.machines.conveyor.load_sharing import sharing_is_known
+from ptmcalc.machines.conveyor.machine.load_sharing import sharing_is_known
+from ptmcalc.machines.conveyor.machine.scenes import Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.fillings import fillings
-from ptmcalc.machines.conveyor.spec import Conveyor, Run
 
 
 def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Result:

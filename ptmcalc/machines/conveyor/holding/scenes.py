@@ -2,7 +2,8 @@
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.run_back import checked_elsewhere, rollback_scene
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Hold, Run, Start, Stopping
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Hold, Run, Start, Stopping
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 AT_REST = 0.5
 """Share of the idler resistance that certainly acts at standstill, by default [1]; practice for backstops. A larger
@@ -18,6 +19,11 @@ def rest_factor(spec: Conveyor) -> float:
 def asks_for_hold(spec: Conveyor, scene: ConveyorScene) -> bool:
     """Whether a scene is one in which the rollback torque is checked."""
     return isinstance(scene, Hold) or scene == _asked_in(spec)
+
+
+def held_forward(spec: Conveyor, scene: ConveyorScene) -> bool:
+    """Whether a scene is one in which the forward torque is checked: a belt that stands, with a falling section."""
+    return isinstance(scene, Hold) and any(part.lift < 0 for part in spec.route.parts)
 
 
 @kept_for(64)

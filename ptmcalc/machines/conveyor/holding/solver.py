@@ -1,24 +1,25 @@
 """Rollback torque of the stopped belt."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from typing import Literal
 
+from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.motor_torque import torques_up_to
-from ptmcalc.components.run_back import runs_back
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.components.run_back import USUAL_RESERVE, runs_back
+from ptmcalc.contract.result import Failure, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import stopping
-from ptmcalc.machines.conveyor.holding.scenes import elsewhere, rest_factor
-from ptmcalc.machines.conveyor.model import (
+from ptmcalc.machines.conveyor.holding.scenes import elsewhere, held_forward, rest_factor
+from ptmcalc.machines.conveyor.machine.model import (
     belt_line,
     special_resistance,
     turns,
 )
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import (
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import (
     Coast,
-    Conveyor,
+    ControlledStop,
     ConveyorScene,
     EmergencyStop,
     Hold,
@@ -26,19 +27,23 @@ from ptmcalc.machines.conveyor.spec import (
     Start,
     Stop,
 )
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 
 def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
-    """Rollback torque of the stopped belt on the head pulley shaft.
+    """Torques of the stopped belt on the head pulley shaft: backward, and forward on falling sections.
 
         M = (H - r W_idlers) D/2,  not below 0;   r = `rest_factor`
 
         M = sum n M_max i eta D/(2 R)   for `stalled_motor: on`, if that is larger
 
+        M_f = (-H - r W_idlers) D/2,  not below 0
+
     Only rising sections are loaded (worst case), by the loading points of the scene; without a `backstop` scene, those
-    of every scene are tried. Only the idler resistance counts at standstill: resistance of loading points, skirt plates
-    and cleaners is not guaranteed. The motors of a jammed belt stretch it with their largest torque; once they are
-    switched off, the backstop holds that pull.
+    of every scene are tried. For the forward torque of a `backstop` scene only falling sections are loaded. Only the
+    idler resistance counts at standstill: resistance of loading points, skirt plates and cleaners is not guaranteed.
+    The motors of a jammed belt stretch it with their largest torque; once they are switched off, the backstop holds
+    that pull.
 
     **Range** standstill; without the impact of a backstop that engages with backlash.
     **Error** exact except for the friction coefficient.
@@ -46,22 +51,35 @@ def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: i
     Stalled motors: practice of backstop manufacturers; derived: all of the pull acts on the backstop, no friction
     relieves it.
     """
-    force = max(-_rest(spec, one) for one in _standing(spec, scene))
+    force = max(_pull(spec, one) for one in _standing(spec, scene, "uphill"))
     diameter = spec.main_drive.drum.diameter
     torque = float(stopping.backstop_torque(force, diameter, 1.0))
     if spec.backstop is not None and spec.backstop.stalled_motor == "on":
         torque = max(torque, _stalled_force(spec) * diameter / 2)
-    found = Result({"backstop_torque": Found(Estimate.exact(torque))}, work=1)
-    if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
-        return found
-    return replace(found, failures=(runs_back("CNV109", "belt", torque),))
+    loads, failures = {"backstop_torque": torque}, list[Failure]()
+    if torque > 0 and spec.backstop is None and not any(brake.at == "head" for brake in spec.brakes.values()):
+        failures.append(runs_back("CNV109", "belt", torque))
+    if held_forward(spec, scene):
+        forward = max(-_pull(spec, one, -1) for one in _standing(spec, scene, "downhill"))
+        loads["forward_torque"] = max(forward, 0.0) * diameter / 2
+        if forward > 0 and not spec.brakes:
+            failures.append(_runs_forward(loads["forward_torque"]))
+    found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    return Result(found, work=1, failures=tuple(failures))
 
 
-def _standing(spec: Conveyor, scene: ConveyorScene) -> Iterator[Hold]:
-    """States of the stopped belt that count: as in the scene, and only rising sections loaded."""
+def _runs_forward(torque: float) -> Failure:
+    """The failure of a belt without brakes, and the brake that holds its forward torque with a reserve."""
+    pulls, holds = (units.show(value, units.TORQUE, 3) for value in (torque, 1.005 * USUAL_RESERVE * torque))
+    message = f"loaded belt runs forward with {pulls}: no brake holds it"
+    return Failure("CNV135", message, ("brakes",), f"add `brakes: {{disc: {{torque: {holds}}}}}`")
+
+
+def _standing(spec: Conveyor, scene: ConveyorScene, worst: Literal["uphill", "downhill"]) -> Iterator[Hold]:
+    """States of the stopped belt that count: as in the scene, and only rising or only falling sections loaded."""
     scenes = [scene] if isinstance(scene, Hold) or spec.load.loading_points is None else spec.all_scenes
     for named in dict.fromkeys(one.loading_points for one in scenes if one.load != "empty" or one is scene):
-        for load in dict.fromkeys((scene.load, "uphill" if scene.load == "full" else scene.load)):
+        for load in dict.fromkeys((scene.load, worst if scene.load == "full" else scene.load)):
             yield Hold(load=load, loading_points=named)
 
 
@@ -76,20 +94,21 @@ def _stalled_force(spec: Conveyor) -> float:
     return found
 
 
-def _rest(spec: Conveyor, scene: Hold) -> float:
-    """What friction holds beyond what gravity pulls [N]; negative where the belt runs back."""
+def _pull(spec: Conveyor, scene: Hold, sense: int = 1) -> float:
+    """What gravity pulls back beyond what friction holds [N]; with `sense` -1 friction holds the forward pull, whose
+    excess is negative."""
     line = belt_line(spec, scene)
     friction = line.back.friction[-1] + line.carry.friction[-1] - special_resistance(spec, scene)
-    return rest_factor(spec) * friction - line.back.climb[-1] - line.carry.climb[-1]
+    return line.back.climb[-1] + line.carry.climb[-1] - sense * rest_factor(spec) * friction
 
 
 HOLDING: Solver[Conveyor, ConveyorScene] = Solver(
     name="holding",
     title="rollback torque of the stopped belt",
     fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Hold, Stop, EmergencyStop, Coast, Start, Run}),
+    scenes=frozenset({Hold, Stop, EmergencyStop, ControlledStop, Coast, Start, Run}),
     represents=frozenset(),
-    gives=frozenset({"backstop_torque"}),
+    gives=frozenset({"backstop_torque", "forward_torque"}),
     run=hold,
     cost=lambda spec, scene, carried, level: 2e-4,
     source="lecture notes Kramatorsk 2007",

@@ -2,7 +2,8 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 _SAFETY = {
     ("textile", True): 8.0,

@@ -7,18 +7,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.conveyor.governing_keys import TENSION, blame_tension, takeup_tension
+from ptmcalc.machines.conveyor.machine.governing_keys import TENSION, blame_tension, takeup_tension
+from ptmcalc.machines.conveyor.machine.scenes import ANY_MOTION, IN_MOTION, ConveyorScene, Jam, Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs, strength_key
 from ptmcalc.machines.conveyor.running.limits import given
 from ptmcalc.machines.conveyor.running.loads import limited_strands
-from ptmcalc.machines.conveyor.spec import (
-    ANY_MOTION,
-    IN_MOTION,
-    Conveyor,
-    ConveyorScene,
-    Jam,
-    Run,
-)
 
 Loads = Mapping[str, Estimate]
 Checks = Iterable[AnyCheck]

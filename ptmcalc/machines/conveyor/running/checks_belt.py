@@ -8,13 +8,14 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.limits import fixed, key
 from ptmcalc.laws import vertical_curve
-from ptmcalc.machines.conveyor.keys.belt import Transition
-from ptmcalc.machines.conveyor.keys.route import Bend, Curve
-from ptmcalc.machines.conveyor.model import breaking_force
+from ptmcalc.machines.conveyor.machine.keys.belt import Transition
+from ptmcalc.machines.conveyor.machine.keys.route import Bend, Curve
+from ptmcalc.machines.conveyor.machine.model import breaking_force
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Jam, Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs
 from ptmcalc.machines.conveyor.running.limits import given
 from ptmcalc.machines.conveyor.running.loads import bent, has_drum_data
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Run
 from ptmcalc.numerics.lanes import value
 
 Checks = Iterable[AnyCheck]

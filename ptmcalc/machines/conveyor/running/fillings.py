@@ -7,11 +7,12 @@ from functools import reduce
 import numpy as np
 
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.loading import Piece, choices, in_operation, load_line_mass, pieces
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, carried_on
-from ptmcalc.machines.conveyor.resistances import extra_forces
-from ptmcalc.machines.conveyor.spec import Conveyor, Run
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.loading import Piece, choices, in_operation, load_line_mass, pieces
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray, carried_on
+from ptmcalc.machines.conveyor.machine.resistances import extra_forces
+from ptmcalc.machines.conveyor.machine.scenes import Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.numerics.lanes import number
 
 

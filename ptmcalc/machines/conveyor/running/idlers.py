@@ -13,13 +13,14 @@ from ptmcalc.contract.limits import key
 from ptmcalc.contract.result import LoadInfo, of
 from ptmcalc.laws import idler_roll
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.keys.belt import IdlerRoll, IdlerRow
-from ptmcalc.machines.conveyor.keys.route import Curve
-from ptmcalc.machines.conveyor.loading import Piece, pieces, sections
-from ptmcalc.machines.conveyor.model import BeltLine
-from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.machine.keys.belt import IdlerRoll, IdlerRow
+from ptmcalc.machines.conveyor.machine.keys.route import Curve
+from ptmcalc.machines.conveyor.machine.loading import Piece, pieces, sections
+from ptmcalc.machines.conveyor.machine.model import BeltLine
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.limits import given
-from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import number, value
 
 Checks = Iterable[AnyCheck]

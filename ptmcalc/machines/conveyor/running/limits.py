@@ -3,7 +3,8 @@
 from collections.abc import Callable
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 
 def given(limit: float) -> Callable[[Conveyor, ConveyorScene], Estimate]:

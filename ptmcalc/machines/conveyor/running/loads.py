@@ -9,14 +9,15 @@ from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo, family, of
 from ptmcalc.laws import belt_section, horizontal_curve, sag, vertical_curve
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.keys.belt import Transition
-from ptmcalc.machines.conveyor.keys.route import Bend, Curve
-from ptmcalc.machines.conveyor.loading import Names, filling_of, load_line_mass, pieces
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
-from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.machine.keys.belt import Transition
+from ptmcalc.machines.conveyor.machine.keys.route import Bend, Curve
+from ptmcalc.machines.conveyor.machine.loading import Names, filling_of, load_line_mass, pieces
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.fillings import Fillings, fillings
 from ptmcalc.machines.conveyor.running.idlers import ROLL_LOADS, life_strands, roll_loads, rolls
-from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import number, value
 
 STATIC_LOADS = (

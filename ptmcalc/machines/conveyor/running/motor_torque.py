@@ -3,9 +3,10 @@
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.steady_drive_checks import SteadyMotors, steady_loads, steady_solver
 from ptmcalc.contract.result import Result
-from ptmcalc.machines.conveyor.load_sharing import motors_of, steady_forces
-from ptmcalc.machines.conveyor.model import belt_line
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run, Start, steady
+from ptmcalc.machines.conveyor.machine.load_sharing import motors_of, steady_forces
+from ptmcalc.machines.conveyor.machine.model import belt_line
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Run, Start, steady
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 
 def _resistance(spec: Conveyor, scene: ConveyorScene) -> float:

@@ -9,12 +9,13 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense
 from ptmcalc.contract.limits import fixed
 from ptmcalc.laws import belt_splice
-from ptmcalc.machines.conveyor.keys.belt import Splice
-from ptmcalc.machines.conveyor.model import belt_stiffness, breaking_force
-from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.machine.keys.belt import Splice
+from ptmcalc.machines.conveyor.machine.model import belt_stiffness, breaking_force
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import ANY_MOTION, ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.belt_safety import strength_key
 from ptmcalc.machines.conveyor.running.loads import bent, strains
-from ptmcalc.machines.conveyor.spec import ANY_MOTION, Conveyor, ConveyorScene, Run
 from ptmcalc.numerics.lanes import value
 
 Loads = Mapping[str, Estimate]

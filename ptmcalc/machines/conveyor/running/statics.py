@@ -11,16 +11,17 @@ from ptmcalc.contract.result import Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.load_sharing import sharing_is_known, steady_forces
-from ptmcalc.machines.conveyor.loading import pieces
-from ptmcalc.machines.conveyor.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
-from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.load_sharing import sharing_is_known, steady_forces
+from ptmcalc.machines.conveyor.machine.loading import pieces
+from ptmcalc.machines.conveyor.machine.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.fillings import pulls_of
 from ptmcalc.machines.conveyor.running.loads import OF_STATICS, OF_TENSION, static_loads
-from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import exp, expm1, number, value
 
 _OF_RUNNING = frozenset(
@@ -162,7 +163,8 @@ def _of_running(
     pull = line.static_resistance + line.tail_pull
     empty = running(spec, scene.model_copy(update={"load": "empty"}))
     nothing = empty.static_resistance + empty.tail_pull
-    mean = belt_resistance.mean_tension(np.diff(places), tensions)
+    fixed = line.fixed_length  # its mean is the mounting tension, without rounding
+    mean = line.takeup_tension if fixed else belt_resistance.mean_tension(np.diff(places), tensions)
     mounting = spec.takeup.tension
     loads = {
         "effective_tension": pull,

@@ -3,7 +3,8 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.conveyor.loads import parts_of
+from ptmcalc.machines.conveyor.machine.loads import parts_of
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.running.checks import SAG, SLACK, STRAND_SAG, STRENGTH, STROKE, TRANSIENT_SAG
 from ptmcalc.machines.conveyor.running.checks_belt import DRUM, FIBRE, FILL, LIFT, PRESSED
 from ptmcalc.machines.conveyor.running.checks_motor import RATING, RESERVE
@@ -12,7 +13,6 @@ from ptmcalc.machines.conveyor.running.loads import STATIC_LOADS, static_parts
 from ptmcalc.machines.conveyor.running.motor_torque import STEADY_DRIVE
 from ptmcalc.machines.conveyor.running.splice import SPLICE
 from ptmcalc.machines.conveyor.running.statics import STATICS
-from ptmcalc.machines.conveyor.spec import Conveyor
 
 LOADS = (
     LoadInfo("tension_run_on_max", "T1 entering drive pulley, maximum", units.FORCE, governing=True),

@@ -7,9 +7,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.conveyor.governing_keys import starting_torque_key
-from ptmcalc.machines.conveyor.loads import RUN_BACK_DISTANCE, may_run_back
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.machine.governing_keys import starting_torque_key
+from ptmcalc.machines.conveyor.machine.loads import RUN_BACK_DISTANCE, may_run_back
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.starting.loads import allowed_acceleration
 
 Loads = Mapping[str, Estimate]

@@ -11,12 +11,14 @@ from ptmcalc.components.motor_starts import no_load_speed
 from ptmcalc.contract.result import Found, LoadInfo, of
 from ptmcalc.laws import loop_bounds, sag, slip_heat, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.drives import moving_mass
-from ptmcalc.machines.conveyor.model import FloatArray
-from ptmcalc.machines.conveyor.motion import Moving, moving
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Conveyor, Drive, PlacedDrive, Start
-from ptmcalc.machines.conveyor.start_case import StartCase, frequencies_of, lowest_frequency, start_case
+from ptmcalc.machines.conveyor.machine.drives import moving_mass
+from ptmcalc.machines.conveyor.machine.keys.drives import Drive, PlacedDrive
+from ptmcalc.machines.conveyor.machine.model import FloatArray
+from ptmcalc.machines.conveyor.machine.motion import Moving, moving
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, frequencies_of, lowest_frequency, start_case
 from ptmcalc.machines.conveyor.waves import start_enclosure
 
 START_LOADS = (

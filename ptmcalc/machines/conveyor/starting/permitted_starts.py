@@ -10,11 +10,13 @@ from ptmcalc.components import motor_starts
 from ptmcalc.components.motor_starts import no_load_speed
 from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.result import Found, LoadInfo, of
-from ptmcalc.machines.conveyor.load_sharing import steady_forces
-from ptmcalc.machines.conveyor.model import belt_line, turns
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Start, steady
-from ptmcalc.machines.conveyor.start_case import StartCase
+from ptmcalc.machines.conveyor.machine.keys.drives import PlacedDrive
+from ptmcalc.machines.conveyor.machine.load_sharing import steady_forces
+from ptmcalc.machines.conveyor.machine.model import belt_line, turns
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import Start, steady
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import StartCase
 from ptmcalc.machines.conveyor.starting.loads import slip_heat_of
 
 PERMITTED = LoadInfo("starts_permitted", "permitted starts per hour of the motor", units.RATIO, headline=False)

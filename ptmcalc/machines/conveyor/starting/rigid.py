@@ -10,16 +10,23 @@ from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.drives import least_pull
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, OF_START, PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.model import FloatArray
-from ptmcalc.machines.conveyor.motion import moving
-from ptmcalc.machines.conveyor.plain_start import is_plain
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads, frequencies_of, start_case, start_duration
+from ptmcalc.machines.conveyor.machine.drives import least_pull
+from ptmcalc.machines.conveyor.machine.loads import DRIVE, OF_BELT, OF_START, PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.machine.model import FloatArray
+from ptmcalc.machines.conveyor.machine.motion import moving
+from ptmcalc.machines.conveyor.machine.plain_start import is_plain
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import (
+    StartCase,
+    drive_loads,
+    frequencies_of,
+    start_case,
+    start_duration,
+)
+from ptmcalc.machines.conveyor.machine.tension_loads import Sides, derived_loads, slip_loads
 from ptmcalc.machines.conveyor.starting.loads import OF_STARTING, start_loads
 from ptmcalc.machines.conveyor.starting.permitted_starts import PERMITTED, permitted_starts
-from ptmcalc.machines.conveyor.tension_loads import Sides, derived_loads, slip_loads
 from ptmcalc.machines.conveyor.waves.start_enclosure import along
 
 

@@ -3,8 +3,8 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.conveyor.loads import RUN_BACK_DISTANCE, RUN_BACK_SPEED, parts_of
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.loads import RUN_BACK_DISTANCE, RUN_BACK_SPEED, parts_of
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.starting.checks import (
     COUPLING_HEAT,
     MOTOR_HEAT,

@@ -10,11 +10,12 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.result import Found, LoadInfo, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking, braking_at_shaft
-from ptmcalc.machines.conveyor.drives import moving_mass, running
-from ptmcalc.machines.conveyor.loads import BRAKE_HEAT, BRAKE_POWER
-from ptmcalc.machines.conveyor.rigid_stop import rigid_stop
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, EmergencyStop, Stop
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking, braking_at_shaft
+from ptmcalc.machines.conveyor.machine.drives import moving_mass, running
+from ptmcalc.machines.conveyor.machine.loads import BRAKE_HEAT, BRAKE_POWER
+from ptmcalc.machines.conveyor.machine.rigid_stop import rigid_stop
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, ConveyorScene, EmergencyStop, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.spec.scene import Scene
 
 _STEPS = 20_000

@@ -7,16 +7,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, only
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.drives import moving_mass, running
-from ptmcalc.machines.conveyor.spec import (
-    Coast,
-    ControlledStop,
-    Conveyor,
-    ConveyorScene,
-    EmergencyStop,
-    Stop,
-)
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.machine.drives import moving_mass, running
+from ptmcalc.machines.conveyor.machine.scenes import Coast, ControlledStop, ConveyorScene, EmergencyStop, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.stopping.controlled import time_key
 
 Loads = Mapping[str, Estimate]

@@ -11,12 +11,13 @@ from ptmcalc.contract.limits import fixed, key
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import start_profile
-from ptmcalc.machines.conveyor.drives import moving_mass, running
-from ptmcalc.machines.conveyor.load_sharing import starting_shares
-from ptmcalc.machines.conveyor.loads import BRAKING_FORCE, BRAKING_POWER, BRAKING_RESERVE, DRIVE_OF_STOP
-from ptmcalc.machines.conveyor.model import braking_force
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor
+from ptmcalc.machines.conveyor.machine.drives import moving_mass, running
+from ptmcalc.machines.conveyor.machine.load_sharing import starting_shares
+from ptmcalc.machines.conveyor.machine.loads import BRAKING_FORCE, BRAKING_POWER, BRAKING_RESERVE, DRIVE_OF_STOP
+from ptmcalc.machines.conveyor.machine.model import braking_force
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 _TIMES = 4001
 """Times of a profile at which force and power are evaluated; a numerical choice. Their maximum has an error of a

@@ -8,25 +8,19 @@ from ptmcalc.components.run_out import too_long_a_way
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.drives import moving_mass, running
-from ptmcalc.machines.conveyor.loads import OF_STOP, ways_of
-from ptmcalc.machines.conveyor.model import (
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.machine.drives import moving_mass, running
+from ptmcalc.machines.conveyor.machine.loads import OF_STOP, ways_of
+from ptmcalc.machines.conveyor.machine.model import (
     BeltLine,
     belt_line,
     special_resistance,
     stop_factor,
 )
-from ptmcalc.machines.conveyor.motion import moving
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import (
-    Coast,
-    ControlledStop,
-    Conveyor,
-    ConveyorScene,
-    EmergencyStop,
-    Stop,
-)
+from ptmcalc.machines.conveyor.machine.motion import moving
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import Coast, ControlledStop, ConveyorScene, EmergencyStop, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.spec.scene import Scene
 
 

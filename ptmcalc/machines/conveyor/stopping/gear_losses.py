@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ptmcalc.machines.conveyor.brakes import FloatArray, brakes_of, brakes_on_motors, braking
-from ptmcalc.machines.conveyor.drives import moving_mass
-from ptmcalc.machines.conveyor.model import BeltLine
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.rigid_stop import rigid_stop
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
+from ptmcalc.machines.conveyor.machine.brakes import FloatArray, brakes_of, brakes_on_motors, braking
+from ptmcalc.machines.conveyor.machine.drives import moving_mass
+from ptmcalc.machines.conveyor.machine.model import BeltLine
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.rigid_stop import rigid_stop
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,13 +11,14 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.loads import DRIVE_OF_STOP, OF_BELT, OF_BRAKES, OF_STOP, PER_DRIVE, ways_of
-from ptmcalc.machines.conveyor.model import loop_masses
-from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, rounds
-from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
-from ptmcalc.machines.conveyor.spec import Coast, ControlledStop, Conveyor, ConveyorScene, EmergencyStop, Jam, Stop
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.loads import DRIVE_OF_STOP, OF_BELT, OF_BRAKES, OF_STOP, PER_DRIVE, ways_of
+from ptmcalc.machines.conveyor.machine.model import loop_masses
+from ptmcalc.machines.conveyor.machine.motion import MOST_ROUNDS, rounds
+from ptmcalc.machines.conveyor.machine.rigid_stop import deceleration, rigid_stop
+from ptmcalc.machines.conveyor.machine.scenes import Coast, ControlledStop, ConveyorScene, EmergencyStop, Jam, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.stopping import controlled, stiff_bounds
 from ptmcalc.machines.conveyor.stopping.brake_heat import rigid_heat
 

@@ -44,13 +44,14 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import loop_bounds, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.loads import OF_BRAKES, PER_DRIVE, SLIPS, WAYS_OF_STOP, ways_of
-from ptmcalc.machines.conveyor.model import BeltLine, loop_masses
-from ptmcalc.machines.conveyor.rigid_stop import rigid_stop
-from ptmcalc.machines.conveyor.spec import ControlledStop, Conveyor, ConveyorScene, Stopping
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.loads import OF_BRAKES, PER_DRIVE, SLIPS, WAYS_OF_STOP, ways_of
+from ptmcalc.machines.conveyor.machine.model import BeltLine, loop_masses
+from ptmcalc.machines.conveyor.machine.rigid_stop import rigid_stop
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, ConveyorScene, Stopping
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.stopping.brake_heat import moved_heat, rigid_heat
 
 FloatArray = NDArray[np.float64]

@@ -3,8 +3,8 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.conveyor.loads import BRAKING_FORCE, BRAKING_POWER, BRAKING_RESERVE
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.loads import BRAKING_FORCE, BRAKING_POWER, BRAKING_RESERVE
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.stopping.brake_heat import HEAT, RIGID_HEAT, brake_parts
 from ptmcalc.machines.conveyor.stopping.brake_heat import LOADS as HEAT_LOADS
 from ptmcalc.machines.conveyor.stopping.brake_heat import POWER as HEAT_POWER

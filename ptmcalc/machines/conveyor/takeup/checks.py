@@ -6,8 +6,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, no_needs, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
-from ptmcalc.machines.conveyor.spec import ANY_MOTION, IN_MOTION, Conveyor, ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
+from ptmcalc.machines.conveyor.machine.scenes import ANY_MOTION, IN_MOTION, ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.takeup.loads import LOWER, UPPER
 
 Loads = Mapping[str, Estimate]

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 UPPER, LOWER = TAKEUP_CLEARANCES
 

@@ -8,12 +8,13 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.loading import Filling, choices, in_operation, pieces
-from ptmcalc.machines.conveyor.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import ANY_MOTION, Conveyor, ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.loading import Filling, choices, in_operation, pieces
+from ptmcalc.machines.conveyor.machine.loads import TAKEUP_CLEARANCES, TAKEUP_TOTAL
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray, Strand
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import ANY_MOTION, ConveyorScene, Run
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.takeup.loads import SHARES
 
 

@@ -9,20 +9,20 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, needs, no_needs, no_repair
 from ptmcalc.contract.limits import key
 from ptmcalc.contract.result import of
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.governing_keys import TENSION, blame_tension, starting_torque_key, takeup_tension
-from ptmcalc.machines.conveyor.model import belt_line, starting_force
-from ptmcalc.machines.conveyor.spec import (
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.machine.governing_keys import TENSION, blame_tension, starting_torque_key, takeup_tension
+from ptmcalc.machines.conveyor.machine.keys.drives import Drive
+from ptmcalc.machines.conveyor.machine.model import belt_line, starting_force
+from ptmcalc.machines.conveyor.machine.scenes import (
     ANY_MOTION,
     IN_MOTION,
-    Conveyor,
     ConveyorScene,
-    Drive,
     EmergencyStop,
     Jam,
     Start,
     Stop,
 )
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 
 Loads = Mapping[str, Estimate]
 Checks = Iterable[AnyCheck]

@@ -30,8 +30,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, of
 from ptmcalc.laws import slip_heat
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.model import FloatArray
-from ptmcalc.machines.conveyor.start_case import StartCase
+from ptmcalc.machines.conveyor.machine.model import FloatArray
+from ptmcalc.machines.conveyor.machine.start_case import StartCase
 from ptmcalc.numerics.loop import Motion
 
 _MARGIN = 2.0

@@ -3,8 +3,8 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.conveyor.loads import parts_of
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.loads import parts_of
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.traction.checks import HEAT, SLIP
 
 LOADS = (

@@ -11,12 +11,12 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.result import Found, family, of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.curves.loads import bend_names
-from ptmcalc.machines.conveyor.load_sharing import pull_together, shares_at
-from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS, TAKEUP_CLEARANCES, TAKEUP_TOTAL
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, grips, starting_force
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.load_sharing import pull_together, shares_at
+from ptmcalc.machines.conveyor.machine.loads import LOWEST, SLIPS, TAKEUP_CLEARANCES, TAKEUP_TOTAL
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray, grips, starting_force
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.numerics.free_waves import Row, swings
 
 _STRANDS = (RETURN, CARRY)

@@ -35,10 +35,18 @@ import numpy as np
 from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import capstan
-from ptmcalc.machines.conveyor.loads import BRAKING_FORCE, BRAKING_RESERVE, GRIP, OF_BRAKES, OF_STOP, SLIPS, TENSIONS
-from ptmcalc.machines.conveyor.model import grips
-from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.rigid_stop import deceleration
+from ptmcalc.machines.conveyor.machine.loads import (
+    BRAKING_FORCE,
+    BRAKING_RESERVE,
+    GRIP,
+    OF_BRAKES,
+    OF_STOP,
+    SLIPS,
+    TENSIONS,
+)
+from ptmcalc.machines.conveyor.machine.model import grips
+from ptmcalc.machines.conveyor.machine.motion import Moving
+from ptmcalc.machines.conveyor.machine.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.stopping.brake_heat import moved_heat
 from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.cell_loads import LOW_CARRY, LOW_PLACES, LOW_RETURN, OneGrid, Values
@@ -63,6 +71,8 @@ short stops without an error bar."""
 _ROUNDING = 1e-11
 """Rounding of sums and differences of tensions, relative to the largest [1]. A numerical choice above the resolution
 2e-16 of the floating point times the number of additions. A larger value widens bars that are otherwise 0."""
+_SLIPPING = (math.nextafter(1, 2), math.nextafter(1, 0))
+"""Grip used and reserve of a drum that slips [1], as `cell_loads` sets them."""
 _MOVES = frozenset({*TENSIONS, "tension_run_off_min", "starting_force_needed", BRAKING_FORCE})
 """Families of forces whose traces tell what is still to come of them."""
 
@@ -300,7 +310,10 @@ def _holds(fine: Values, found: Mapping[str, Interval], name: str) -> bool:
 
 
 def _rounded(one: Interval, name: str, fine: Values) -> Interval:
-    """A bar with rounding: of the largest tension, of which all tensions are sums and differences, or of the load."""
+    """A bar with rounding: of the largest tension, of which all tensions are sums and differences, or of the load; a
+    drum that surely slips has no bar, since its grip is exactly in use."""
+    if family(name) in GRIP and one == NOTHING and fine[name][0] in _SLIPPING:
+        return one
     size = fine["tension_max" if family(name) in {*TENSIONS, "tension_run_off_min"} else name][0]
     rounding = _ROUNDING * abs(size) if math.isfinite(size) else 0.0
     return Interval(one.low - rounding, one.high + rounding)

@@ -7,9 +7,9 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.contract.result import Event, Finding, History, family, of
 from ptmcalc.laws import capstan
-from ptmcalc.machines.conveyor.loads import MOTOR_SPEED
-from ptmcalc.machines.conveyor.model import FloatArray
-from ptmcalc.machines.conveyor.motion import Moving
+from ptmcalc.machines.conveyor.machine.loads import MOTOR_SPEED
+from ptmcalc.machines.conveyor.machine.model import FloatArray
+from ptmcalc.machines.conveyor.machine.motion import Moving
 from ptmcalc.machines.conveyor.waves.cell_loads import speeds_of
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.machines.conveyor.waves.takeup_stops import sinking

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from ptmcalc.contract.result import of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking_at_shaft
 from ptmcalc.machines.conveyor.curves.loads import bend_names
-from ptmcalc.machines.conveyor.keys.route import Curve
-from ptmcalc.machines.conveyor.loads import (
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking_at_shaft
+from ptmcalc.machines.conveyor.machine.keys.route import Curve
+from ptmcalc.machines.conveyor.machine.loads import (
     BELT_SPEED,
     BRAKE_HEAT,
     BRAKING_FORCE,
@@ -24,12 +24,13 @@ from ptmcalc.machines.conveyor.loads import (
     RUN_BACK_SPEED,
     may_run_back,
 )
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, braking_force, starting_force, turns
-from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.resistances import filled
-from ptmcalc.machines.conveyor.spec import ControlledStop, Start
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray, braking_force, starting_force, turns
+from ptmcalc.machines.conveyor.machine.motion import Moving
+from ptmcalc.machines.conveyor.machine.resistances import filled
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, Start
 from ptmcalc.machines.conveyor.stopping.brake_heat import with_power
 from ptmcalc.machines.conveyor.takeup.travel import moved
+from ptmcalc.machines.conveyor.waves import torque_limits
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.machines.conveyor.waves.takeup_stops import sinking
 from ptmcalc.numerics import peaks
@@ -237,7 +238,8 @@ def _asked(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
     """Force that a start on converters asks of the drives together, over the available one."""
     force = sum((one for one, _ in _of_converters(case, drawn, ready).values()), np.zeros(len(drawn.times)))
     found.traces["starting_force_needed"] = trace = Trace(force, ready.course.step)
-    needed, at = trace.extreme()
+    most, at = trace.extreme()
+    needed = torque_limits.required(case, force, most)
     available = starting_force(case.spec)
     reserve = available / needed if needed > 0 else math.inf
     values = found.values
@@ -267,7 +269,8 @@ def _held_back(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
     for name in (BRAKING_FORCE, BRAKING_POWER):
         value, at = traces[name].extreme()
         values[name] = value, {"time": at}
-    needed = values[BRAKING_FORCE][0]
+    needed = torque_limits.required(case, force, values[BRAKING_FORCE][0])
+    values[BRAKING_FORCE] = needed, values[BRAKING_FORCE][1]
     values[BRAKING_RESERVE] = braking_force(case.spec) / needed if needed > 0 else math.inf, {}
 
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Found, family
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS
-from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.spec import ConveyorScene, Jam, Start
+from ptmcalc.machines.conveyor.machine.loads import OF_STOP, SLIPS
+from ptmcalc.machines.conveyor.machine.motion import Moving
+from ptmcalc.machines.conveyor.machine.scenes import ConveyorScene, Jam, Start
 from ptmcalc.machines.conveyor.waves import cell_bars
 from ptmcalc.machines.conveyor.waves.cell_loads import OneGrid, Values, loads_of
 from ptmcalc.machines.conveyor.waves.cells import Set, rubber_of, set_up

@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.brakes import Braking, brakes_of, braking
-from ptmcalc.machines.conveyor.keys.converter import leaders
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_force, drive_masses
-from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.spec import Conveyor, Jam, Start
+from ptmcalc.machines.conveyor.machine.brakes import Braking, brakes_of, braking
+from ptmcalc.machines.conveyor.machine.keys.converter import leaders
+from ptmcalc.machines.conveyor.machine.model import BeltLine, FloatArray, Strand, drive_force, drive_masses
+from ptmcalc.machines.conveyor.machine.motion import Moving
+from ptmcalc.machines.conveyor.machine.scenes import Jam, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.numerics.belt.compiled import OverTime
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber

@@ -10,11 +10,12 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE
-from ptmcalc.machines.conveyor.motion import AFTER_START
-from ptmcalc.machines.conveyor.plain_start import delay_lines_do, plainness, slides_at_rest
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.start_case import StartCase, start_case
+from ptmcalc.machines.conveyor.machine.loads import DRIVE, OF_BELT, PER_DRIVE
+from ptmcalc.machines.conveyor.machine.motion import AFTER_START
+from ptmcalc.machines.conveyor.machine.plain_start import delay_lines_do, plainness, slides_at_rest
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, start_case
 from ptmcalc.machines.conveyor.traction.slip import slip_loads
 from ptmcalc.machines.conveyor.waves.after_start import MODES, ending, still_to_come
 from ptmcalc.machines.conveyor.waves.last_motions import Kept

@@ -13,10 +13,10 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, family
 from ptmcalc.laws import sag
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.loads import BRAKING_RESERVE, OF_STOP, SLIPS, TAKEUP_CLEARANCES
-from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.spec import Start
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.loads import BRAKING_RESERVE, OF_STOP, SLIPS, TAKEUP_CLEARANCES
+from ptmcalc.machines.conveyor.machine.motion import Moving
+from ptmcalc.machines.conveyor.machine.scenes import Start
 from ptmcalc.numerics.belt.march import Drawn, Extreme
 
 _FRONT_STEPS = 12

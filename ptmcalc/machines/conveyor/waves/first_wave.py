@@ -6,11 +6,12 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.loads import AT_DRUM
-from ptmcalc.machines.conveyor.plain_start import plainness
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.loads import AT_DRUM
+from ptmcalc.machines.conveyor.machine.plain_start import plainness
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:

@@ -10,7 +10,7 @@ from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import (
+from ptmcalc.machines.conveyor.machine.loads import (
     BELT_SPEED,
     BRAKING_FORCE,
     BRAKING_POWER,
@@ -30,9 +30,9 @@ from ptmcalc.machines.conveyor.loads import (
     TENSIONS,
     WAYS_OF_STOP,
 )
-from ptmcalc.machines.conveyor.model import BeltLine, grips, turns
-from ptmcalc.machines.conveyor.spec import Conveyor
-from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads
+from ptmcalc.machines.conveyor.machine.model import BeltLine, grips, turns
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, drive_loads
 from ptmcalc.machines.conveyor.stopping.brake_heat import moved_heat
 from ptmcalc.machines.conveyor.traction.bounds import moved_grip
 

@@ -13,15 +13,23 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Failure, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.conveyor.keys.converter import leaders
-from ptmcalc.machines.conveyor.load_sharing import steady_motor_speeds
-from ptmcalc.machines.conveyor.loads import DRIVE, DRIVE_OF_STOP, OF_NETWORK, PER_DRIVE
-from ptmcalc.machines.conveyor.model import belt_line, turns
-from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
-from ptmcalc.machines.conveyor.plain_start import delay_lines_do
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Start
-from ptmcalc.machines.conveyor.start_case import start_case
-from ptmcalc.machines.conveyor.waves import deep_sag, start_enclosure, start_intervals, tail_pulley, takeup_stops
+from ptmcalc.machines.conveyor.machine.keys.converter import leaders
+from ptmcalc.machines.conveyor.machine.load_sharing import steady_motor_speeds
+from ptmcalc.machines.conveyor.machine.loads import DRIVE, DRIVE_OF_STOP, OF_NETWORK, PER_DRIVE
+from ptmcalc.machines.conveyor.machine.model import belt_line, turns
+from ptmcalc.machines.conveyor.machine.motion import MOST_ROUNDS, Moving, moving
+from ptmcalc.machines.conveyor.machine.plain_start import delay_lines_do
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
+from ptmcalc.machines.conveyor.waves import (
+    deep_sag,
+    start_enclosure,
+    start_intervals,
+    tail_pulley,
+    takeup_stops,
+    torque_limits,
+)
 from ptmcalc.machines.conveyor.waves.after_start import MODES, Ending, ending, still_to_come
 from ptmcalc.machines.conveyor.waves.cell_histories import events_of, findings_of, histories
 from ptmcalc.machines.conveyor.waves.cell_runs import (
@@ -70,10 +78,13 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
-    failures, end = (
-        (*failures_of(case, drawn, ready), *slack, *takeup_stops.failures(case, drawn, loads)),
-        _ending(case, runs, slipping),
+    failures = (
+        *failures_of(case, drawn, ready),
+        *slack,
+        *takeup_stops.failures(case, drawn, loads),
+        *torque_limits.failures(case, [one.loads.traces for one in runs[-3:]]),
     )
+    end = _ending(case, runs, slipping)
     if unfinished(case, drawn):
         loads = loads_so_far(case, loads, [one.drawn for one in runs])
     later = still_to_come(spec, case.line, end, loads) if end else {}

@@ -15,7 +15,7 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.laws import loop_bounds, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.start_case import StartCase, lowest_frequency
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, lowest_frequency
 
 FloatArray = NDArray[np.float64]
 

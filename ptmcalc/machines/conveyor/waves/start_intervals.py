@@ -8,9 +8,9 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.contract.result import family
 from ptmcalc.laws import sag
-from ptmcalc.machines.conveyor.model import BeltLine
-from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads
-from ptmcalc.machines.conveyor.tension_loads import Sides, derived_loads, slip_loads
+from ptmcalc.machines.conveyor.machine.model import BeltLine
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, drive_loads
+from ptmcalc.machines.conveyor.machine.tension_loads import Sides, derived_loads, slip_loads
 from ptmcalc.machines.conveyor.waves.load_errors import offset
 from ptmcalc.machines.conveyor.waves.start_enclosure import Enclosure, enclose
 

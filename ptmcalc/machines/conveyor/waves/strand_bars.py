@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ptmcalc.machines.conveyor.model import FloatArray
-from ptmcalc.machines.conveyor.start_case import StartCase
+from ptmcalc.machines.conveyor.machine.model import FloatArray
+from ptmcalc.machines.conveyor.machine.start_case import StartCase
 from ptmcalc.numerics import loop, peaks
 
 _MARGIN, _SLIP_MARGIN, _SAGGING_MARGIN = 1.5, 2.0, 3.0

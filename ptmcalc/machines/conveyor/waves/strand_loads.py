@@ -9,10 +9,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, History, family, of
 from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import tension_loads
-from ptmcalc.machines.conveyor.loads import SLIPS
-from ptmcalc.machines.conveyor.model import FloatArray
-from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads
+from ptmcalc.machines.conveyor.machine import tension_loads
+from ptmcalc.machines.conveyor.machine.loads import SLIPS
+from ptmcalc.machines.conveyor.machine.model import FloatArray
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, drive_loads
 from ptmcalc.machines.conveyor.waves.strand_bars import Bars, inside_extremes
 from ptmcalc.numerics import loop, strand_envelopes
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from ptmcalc.contract.result import Found
-from ptmcalc.machines.conveyor.motion import Moving
+from ptmcalc.machines.conveyor.machine.motion import Moving
 from ptmcalc.machines.conveyor.waves.effects.shared import moved_by
 from ptmcalc.numerics.belt.march import Drawn
 

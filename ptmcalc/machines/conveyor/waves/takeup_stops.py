@@ -7,10 +7,10 @@ import numpy as np
 
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.result import Failure, Found, family
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, TAKEUP_CLEARANCES, TAKEUP_WAYS
-from ptmcalc.machines.conveyor.model import FloatArray
-from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.machine.loads import CHANGED_BY_MOTION, DRIVE, TAKEUP_CLEARANCES, TAKEUP_WAYS
+from ptmcalc.machines.conveyor.machine.model import FloatArray
+from ptmcalc.machines.conveyor.machine.motion import Moving
+from ptmcalc.machines.conveyor.machine.resistances import filled
 from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.numerics.belt.march import Drawn
 

@@ -3,10 +3,11 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.conveyor.loads import BELT_SPEED, MOTOR_SPEED, parts_of
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.loads import BELT_SPEED, MOTOR_SPEED, parts_of
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.waves.effects.damping import BELT_DAMPING
+from ptmcalc.machines.conveyor.waves.effects.feed import FEED
 from ptmcalc.machines.conveyor.waves.effects.gear import GEAR_LOSSES
 from ptmcalc.machines.conveyor.waves.effects.idlers import COULOMB_IDLERS, VISCOUS_IDLERS
 from ptmcalc.machines.conveyor.waves.effects.moving_belt import MOVING_BELT
@@ -39,6 +40,7 @@ WAVES: Topic[Conveyor] = Topic(
         MOVING_BELT,
         SLIP,
         GEAR_LOSSES,
+        FEED,
     ),
     solvers=(FIRST_WAVE, TWO_INTERVAL, CHARACTERISTICS, NETWORK, RUNNING_NETWORK),
 )

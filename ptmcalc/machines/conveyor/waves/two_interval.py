@@ -8,10 +8,11 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, wave
 from ptmcalc.laws.loop_bounds import CARRY
-from ptmcalc.machines.conveyor.loads import AT_DRUM
-from ptmcalc.machines.conveyor.plain_start import plainness
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.start_case import StartCase, start_case
+from ptmcalc.machines.conveyor.machine.loads import AT_DRUM
+from ptmcalc.machines.conveyor.machine.plain_start import plainness
+from ptmcalc.machines.conveyor.machine.scenes import Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, start_case
 from ptmcalc.machines.conveyor.waves import start_enclosure, start_intervals
 from ptmcalc.machines.conveyor.waves.effects import tail
 

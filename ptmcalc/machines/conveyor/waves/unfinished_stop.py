@@ -5,10 +5,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Found
-from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.drives import moving_mass
-from ptmcalc.machines.conveyor.loads import ways_of
-from ptmcalc.machines.conveyor.motion import Moving
+from ptmcalc.machines.conveyor.machine.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.machine.drives import moving_mass
+from ptmcalc.machines.conveyor.machine.loads import ways_of
+from ptmcalc.machines.conveyor.machine.motion import Moving
 from ptmcalc.machines.conveyor.waves import deep_sag
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.numerics.belt.march import Drawn

@@ -7,10 +7,10 @@ from ptmcalc.machines.crane.slewing.assumptions import assumptions
 from ptmcalc.machines.crane.slewing.drive.topic import DRIVE
 from ptmcalc.machines.crane.slewing.figures import FIGURES
 from ptmcalc.machines.crane.slewing.inspection import inspect
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane
 from ptmcalc.machines.crane.slewing.relations import RELATIONS
 from ptmcalc.machines.crane.slewing.ring.topic import SLEWING_RING
 from ptmcalc.machines.crane.slewing.rotation.topic import ROTATION
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane
 from ptmcalc.machines.crane.slewing.sway.topic import SWAY
 
 TOPICS = (ROTATION, DRIVE, SWAY, SLEWING_RING)

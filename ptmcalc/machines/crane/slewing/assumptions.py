@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane
 
 _WIDE = 0.15
 """Radius of gyration of a part about its own centre, over the radius of the load, at most."""

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Finding
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 _TIME_TOLERANCE = 0.02
 """Relative difference [1] of the stated start time and that of the stated torque, above which SPC201 is reported. An

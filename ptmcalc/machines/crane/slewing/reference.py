@@ -15,14 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.components.motor import ConverterMotor, Stage
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.rotation import chain
 from ptmcalc.machines.crane.slewing.rotation.loads import OF_THE_CHAIN
-from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
 from ptmcalc.machines.crane.slewing.sway.slew import ALWAYS, hangs
 from ptmcalc.reference import lumped, lumped_history, two_runs

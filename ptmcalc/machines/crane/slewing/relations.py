@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from ptmcalc.contract.relation import Relation, computed, ordered
-from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.spec.scene import Scene
 
 _SLEWS: frozenset[type[Scene]] = frozenset({Slew})

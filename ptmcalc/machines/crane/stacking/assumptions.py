@@ -6,10 +6,10 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.components.travel_drive import TravelDrive
 from ptmcalc.contract.machine import Assumption, Use
-from ptmcalc.machines.crane.stacking.keys.drives import ROPE_MODULUS, Travel
-from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
-from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import (
+from ptmcalc.machines.crane.stacking.machine.keys.drives import ROPE_MODULUS, Travel
+from ptmcalc.machines.crane.stacking.machine.overhead import OverheadStacker
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import (
     Brake,
     ForkCaught,
     HoistScene,
@@ -18,7 +18,7 @@ from ptmcalc.machines.crane.stacking.scenes import (
     StackerScene,
     Start,
 )
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 _OF_ARMS = Use(
     loads=frozenset(

@@ -2,7 +2,7 @@
 
 from ptmcalc.contract.figure import Course, Figure, Marks, Moment, Threshold
 from ptmcalc.contract.report import SceneReport
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 _DRIVEN = ("start", "brake")
 

@@ -13,12 +13,12 @@ from ptmcalc.machines.crane.stacking.assumptions import USES, assumptions
 from ptmcalc.machines.crane.stacking.collision.topic import COLLISION
 from ptmcalc.machines.crane.stacking.figures import FIGURES
 from ptmcalc.machines.crane.stacking.fork.topic import FORK
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast.topic import MAST
 from ptmcalc.machines.crane.stacking.mechanisms.topic import MECHANISMS
 from ptmcalc.machines.crane.stacking.rail.topic import RAIL
 from ptmcalc.machines.crane.stacking.relations import relations_of
 from ptmcalc.machines.crane.stacking.safety_gear.topic import SAFETY_GEAR
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.combinations import tables
 from ptmcalc.machines.crane.stacking.strength.topic import STRENGTH
 from ptmcalc.spec.scene import Scene

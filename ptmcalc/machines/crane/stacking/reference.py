@@ -14,8 +14,8 @@ from ptmcalc.machines.crane.stacking.fork.caught import with_factor
 from ptmcalc.machines.crane.stacking.fork.effects import CATCHING, LIMITER, PUSHING, SLOPE, YIELDING
 from ptmcalc.machines.crane.stacking.fork.effects import RACK as RACK_GIVES
 from ptmcalc.machines.crane.stacking.fork.masses import RACK, ROPE
-from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.scenes import ForkCaught, ForkPush
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import with_derived
 from ptmcalc.numerics.train.parts import Train
 from ptmcalc.reference import lumped, lumped_cost, two_runs

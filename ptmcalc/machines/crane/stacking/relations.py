@@ -5,12 +5,11 @@ from collections.abc import Mapping
 
 from ptmcalc.contract.relation import Relation, computed, ordered
 from ptmcalc.contract.result import of
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.columns import swinging
-from ptmcalc.machines.crane.stacking.loads import MODES
-from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.rail.base import wheel_load
-from ptmcalc.machines.crane.stacking.scenes import (
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.columns import swinging
+from ptmcalc.machines.crane.stacking.machine.loads import MODES
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import (
     Brake,
     DrivenScene,
     ForkCaught,
@@ -23,7 +22,8 @@ from ptmcalc.machines.crane.stacking.scenes import (
     Stand,
     Start,
 )
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.rail.base import wheel_load
 from ptmcalc.machines.crane.stacking.strength.derived import MARKED_BY
 from ptmcalc.spec.scene import Scene
 

@@ -8,16 +8,16 @@ from ptmcalc.contract.machine import MachineKind, reference_methods_in, template
 from ptmcalc.contract.result import Finding
 from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import skew
-from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.assumptions import USES, assumptions
 from ptmcalc.machines.crane.travelling.buffers.topic import BUFFERS
 from ptmcalc.machines.crane.travelling.figures import FIGURES
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.rail.topic import RAIL
 from ptmcalc.machines.crane.travelling.relations import RELATIONS
 from ptmcalc.machines.crane.travelling.runway.table import tables
 from ptmcalc.machines.crane.travelling.runway.topic import RUNWAY
 from ptmcalc.machines.crane.travelling.skewing.topic import SKEW
-from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics.factors import CREEPING
 from ptmcalc.machines.crane.travelling.statics.topic import STATICS
 from ptmcalc.machines.crane.travelling.storm.topic import STORM_PARKED

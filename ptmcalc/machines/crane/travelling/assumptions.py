@@ -7,8 +7,8 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption, Use
 from ptmcalc.laws import skew
-from ptmcalc.machines.crane.travelling.scenes import Runway, Skew
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.scenes import Runway, Skew
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 _HEAD = 0.05
 """Of a rail of which the file says nothing, the narrowest usual one of cranes [m]."""

@@ -13,16 +13,17 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.components.motor import ConverterMotor, Stage
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.loads import MOVING
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import Moving
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.reference_events import OF_EVENTS
-from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway import cartesian
 from ptmcalc.machines.crane.travelling.sway.cartesian import Force, Journey, Mode, Numbers, Seen, no_force
 from ptmcalc.machines.crane.travelling.sway.course import Course, Reading, Worst

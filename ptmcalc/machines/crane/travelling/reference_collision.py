@@ -10,11 +10,11 @@ from ptmcalc.components.buffer import Buffer
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer
-from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.buffers import yawing
-from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.scenes import Collision
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import Collision
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.reference import lumped, two_runs
 
 SOURCE = "Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I"

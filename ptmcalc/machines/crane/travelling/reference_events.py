@@ -18,12 +18,12 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import skew
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import RailStep, Skew, Storm
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.rail.effects import RAIL
 from ptmcalc.machines.crane.travelling.reference_collision import COLLISION_IN_TIME, SOURCE, priced
-from ptmcalc.machines.crane.travelling.scenes import RailStep, Skew, Storm
-from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.reference import lumped, lumped_history, two_runs
 
 FloatArray = NDArray[np.float64]

@@ -3,14 +3,14 @@
 from collections.abc import Mapping
 
 from ptmcalc.contract.relation import Relation, computed, ordered
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.scenes import (
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.scenes import (
     MOVING,
     Run,
     Storm,
     TravelScene,
 )
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.spec.scene import Scene
 
 _MOVES: frozenset[type[Scene]] = frozenset(MOVING)

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 from ptmcalc.contract.check import Check, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.limits import fixed
-from ptmcalc.machines.drivetrain.judging import ALL, NO_LIMIT, AnyCheck, exactly
-from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
+from ptmcalc.machines.drivetrain.machine.judging import ALL, NO_LIMIT, AnyCheck, exactly
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, TrainScene
 
 WORN_OUT, WORN_OUT_OPEN = 0.25, 0.40
 """Largest worn part of a tooth [1], lecture notes Kramatorsk 2007 (15 to 25 % and 40 %): in gearboxes and gear

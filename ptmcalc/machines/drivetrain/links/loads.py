@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain
 
 TORQUE_PEAK = LoadInfo("torque_peak", "peak link torque or force", units.TORQUE, governing=True)
 TORQUE_STEADY = LoadInfo("torque_steady", "final link torque, rigid-train model", units.TORQUE)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
-from ptmcalc.machines.drivetrain.model import REACHED, Case
+from ptmcalc.machines.drivetrain.machine.model import REACHED, Case
 from ptmcalc.machines.drivetrain.motion.course import Course
 from ptmcalc.numerics.train.parts import Drive, Governed, Spring, Straight
 from ptmcalc.numerics.train.signals import Signal

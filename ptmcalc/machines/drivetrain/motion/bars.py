@@ -5,11 +5,11 @@ from collections.abc import Iterable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, family, of
-from ptmcalc.machines.drivetrain.model import Case
+from ptmcalc.machines.drivetrain.machine.model import Case
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain
 from ptmcalc.machines.drivetrain.motion import simulation
 from ptmcalc.machines.drivetrain.motion.course import Course
 from ptmcalc.machines.drivetrain.motion.simulation import Readings, part_of
-from ptmcalc.machines.drivetrain.spec import Drivetrain
 from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.train.parts import Smooth
 

@@ -9,10 +9,10 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import of
 from ptmcalc.laws import backlash
-from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.machine.model import case_of, rigid
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, TrainScene
 from ptmcalc.machines.drivetrain.motion import simulation
 from ptmcalc.machines.drivetrain.motion import swings as modal_swings
-from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.train.parts import CLAMPED, KELVIN, LINEAR, NO_PULL, RIGID, Spring, Train
 from ptmcalc.numerics.train.tree import Groups
 

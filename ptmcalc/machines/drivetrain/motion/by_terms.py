@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from ptmcalc.machines.drivetrain.model import Case, case_of, rigid
-from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
+from ptmcalc.machines.drivetrain.machine.model import Case, case_of, rigid
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.train.parts import Governed, Smooth, Straight
 from ptmcalc.numerics.train.signals import FloatArray, Signal
 

@@ -9,8 +9,8 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.limits import fixed, key
 from ptmcalc.contract.result import of
-from ptmcalc.machines.drivetrain.model import brake_of, case_of
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Start, Stop, TrainScene
+from ptmcalc.machines.drivetrain.machine.model import brake_of, case_of
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Start, Stop, TrainScene
 
 C = TypeVar("C", bound=TrainScene)
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ptmcalc.machines.drivetrain.model import Case
+from ptmcalc.machines.drivetrain.machine.model import Case
 from ptmcalc.numerics.record import Record
 from ptmcalc.numerics.train.ledger import Ledger
 from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Smooth

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.machines.drivetrain.motion import bounds
 from ptmcalc.machines.drivetrain.motion.loads import MOVING
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 
 Loads = Mapping[str, Estimate]
 

@@ -3,10 +3,10 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.machine.model import case_of, rigid
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.machines.drivetrain.motion import bars, ending, simulation
 from ptmcalc.machines.drivetrain.motion.loads import MOVING
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
 """Largest remainder of a nonlinear torque by level, relative to its size [1]. A numerical choice: a smaller value

@@ -9,10 +9,10 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Failure, Found, Result, family, of
-from ptmcalc.machines.drivetrain.model import REACHED, Case, Part, brake_of, case_of, rigid
+from ptmcalc.machines.drivetrain.machine.model import REACHED, Case, Part, brake_of, case_of, rigid
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Run, TrainScene
 from ptmcalc.machines.drivetrain.motion import announced, bars, overhauled_motors, simulation
 from ptmcalc.machines.drivetrain.motion.course import Course
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, TrainScene
 from ptmcalc.numerics.train.parts import Governed, Grip
 from ptmcalc.numerics.train.signals import Signal
 

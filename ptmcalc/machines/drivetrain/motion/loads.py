@@ -6,9 +6,9 @@ from dataclasses import replace
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.machines.drivetrain.links.loads import DYNAMIC_FACTOR, TORQUE_PEAK, TORQUE_STEADY
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain
+from ptmcalc.machines.drivetrain.machine.wiring import GROUND
 from ptmcalc.machines.drivetrain.motors.loads import LOADS_OF_MOTORS
-from ptmcalc.machines.drivetrain.spec import Drivetrain
-from ptmcalc.machines.drivetrain.wiring import GROUND
 
 START_TIME = LoadInfo("start_time", "starting time", units.TIME, governing=True)
 START_BY_TERMS = LoadInfo("start_time_by_terms", "starting time, efficiency per term", units.TIME)

@@ -6,10 +6,10 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.motor_torque import overhauled_torque
 from ptmcalc.contract.result import Failure, Found, of
-from ptmcalc.machines.drivetrain.keys.torques import MotorOn
+from ptmcalc.machines.drivetrain.machine.keys.torques import MotorOn
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, TrainScene
 from ptmcalc.machines.drivetrain.motion.course import Course
 from ptmcalc.machines.drivetrain.motors.overhauling import LOAD, overhauled, parts_with_motors, path_of
-from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 
 _OVERSPEED = 1.2
 """Speed of a motor for a short time relative to no-load speed [1], IEC 60034-1, 9.7. A larger value accepts faster

@@ -6,12 +6,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.machine.model import case_of, rigid
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.machines.drivetrain.motion import bars, ending, simulation
 from ptmcalc.machines.drivetrain.motion.effects import elasticity_criterion
 from ptmcalc.machines.drivetrain.motion.elastic import TOLERANCES
 from ptmcalc.machines.drivetrain.motion.loads import MOVING
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:

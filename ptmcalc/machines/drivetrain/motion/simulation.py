@@ -11,12 +11,12 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import Event, Finding, History, of
 from ptmcalc.machines.drivetrain.links import loads as link_loads
-from ptmcalc.machines.drivetrain.model import REACHED, Case, Part, rigid
+from ptmcalc.machines.drivetrain.machine.model import REACHED, Case, Part, rigid
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, TrainScene
 from ptmcalc.machines.drivetrain.motion import announced
 from ptmcalc.machines.drivetrain.motion import loads as motion_loads
 from ptmcalc.machines.drivetrain.motion.course import Course, is_smooth
 from ptmcalc.machines.drivetrain.motors import loads as motor_loads
-from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.piecewise import JAMMED, march
 from ptmcalc.numerics.record import PANEL
 from ptmcalc.numerics.train import price

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ptmcalc.machines.drivetrain.model import REACHED, Case
+from ptmcalc.machines.drivetrain.machine.model import REACHED, Case
 from ptmcalc.numerics.train.parts import LINEAR, Drive, Train
 from ptmcalc.numerics.train.signals import FloatArray, Signal, Sine
 from ptmcalc.numerics.train.tree import Groups

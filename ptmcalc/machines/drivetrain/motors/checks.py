@@ -5,9 +5,9 @@ from collections.abc import Iterator
 
 from ptmcalc.contract.check import Check, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.limits import fixed
-from ptmcalc.machines.drivetrain.judging import DRIVEN, NO_LIMIT, RUNNING, AnyCheck, exactly
+from ptmcalc.machines.drivetrain.machine.judging import DRIVEN, NO_LIMIT, RUNNING, AnyCheck, exactly
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, TrainScene
 from ptmcalc.machines.drivetrain.motors.overhauling import overhauled, path_of
-from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 
 
 def _heating_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain
 
 MOTOR_PEAK = LoadInfo("motor_torque_peak", "motor torque, maximum", units.TORQUE, governing=True)
 MOTOR_RMS = LoadInfo("motor_torque_rms", "motor torque, rms", units.TORQUE, governing=True)

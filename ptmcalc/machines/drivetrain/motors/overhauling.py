@@ -16,9 +16,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase
 from ptmcalc.components.motor_torque import overhauled_torque
 from ptmcalc.contract.result import Found, of
-from ptmcalc.machines.drivetrain.keys.torques import MotorOn
-from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Stop, TrainScene
+from ptmcalc.machines.drivetrain.machine.keys.torques import MotorOn
+from ptmcalc.machines.drivetrain.machine.model import REACHED, Case, case_of
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Stop, TrainScene
 from ptmcalc.numerics.train.parts import Drive, Grip, Law, Mesh, Smooth, Spring, Straight
 from ptmcalc.numerics.train.signals import Signal
 

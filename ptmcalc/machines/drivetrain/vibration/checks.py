@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 from ptmcalc.contract.check import Check, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.drivetrain.judging import RUNNING, AnyCheck
-from ptmcalc.machines.drivetrain.keys.torques import SineTorque
-from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
+from ptmcalc.machines.drivetrain.machine.judging import RUNNING, AnyCheck
+from ptmcalc.machines.drivetrain.machine.keys.torques import SineTorque
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, TrainScene
 
 _RESONANCE_LIMIT = key(
     "checks.resonance_margin",

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain
 
 SEPARATION = LoadInfo("resonance_separation", "excitation separation from resonance", units.SHARE, governing=True)
 FREQUENCY = LoadInfo("natural_frequency", "natural frequency", units.ANGULAR_FREQUENCY)

@@ -6,14 +6,14 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import backlash
-from ptmcalc.machines.drivetrain.keys.torques import SineTorque
 from ptmcalc.machines.drivetrain.links.loads import WEAR
-from ptmcalc.machines.drivetrain.model import case_of
+from ptmcalc.machines.drivetrain.machine.keys.torques import SineTorque
+from ptmcalc.machines.drivetrain.machine.model import case_of
+from ptmcalc.machines.drivetrain.machine.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.machines.drivetrain.motion.by_terms import time_by_terms
 from ptmcalc.machines.drivetrain.motion.loads import START_BY_TERMS, STOP_BY_TERMS
 from ptmcalc.machines.drivetrain.motors.loads import BRAKING
 from ptmcalc.machines.drivetrain.motors.overhauling import braking_reserve
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.machines.drivetrain.vibration.loads import LOADS_OF_VIBRATION
 from ptmcalc.numerics.train.modes import frequencies
 

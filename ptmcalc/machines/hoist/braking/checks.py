@@ -7,7 +7,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.contract.limits import key
 from ptmcalc.machines.hoist.braking.loads import DESCENT, HEAT, REPEATED, STOPS
-from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist
+from ptmcalc.machines.hoist.machine.spec import EmergencyStop, Hoist
 
 OneCheck = Check[Hoist, EmergencyStop]
 _STOPPED = frozenset({EmergencyStop})

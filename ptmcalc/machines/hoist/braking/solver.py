@@ -8,7 +8,6 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.braking.loads import (
     DESCENT,
     HEAT,
@@ -24,8 +23,9 @@ from ptmcalc.machines.hoist.braking.loads import (
 )
 from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.drive.solver import overspeed_note
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import EmergencyStop, Hoist
 
 if TYPE_CHECKING:
     from ptmcalc.machines.hoist.braking.motion import Train

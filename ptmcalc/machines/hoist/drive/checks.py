@@ -11,8 +11,8 @@ from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blame
 from ptmcalc.contract.limits import fixed, key
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist.drive import torques
-from ptmcalc.machines.hoist.model import loaded
-from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist, HoistScene, LowerBrake, Run, Start, Stop
+from ptmcalc.machines.hoist.machine.model import loaded
+from ptmcalc.machines.hoist.machine.spec import EmergencyStop, Hoist, HoistScene, LowerBrake, Run, Start, Stop
 
 OneCheck = Check[Hoist, Run]
 RUNNING = frozenset({Run})

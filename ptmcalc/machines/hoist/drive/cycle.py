@@ -15,8 +15,8 @@ from ptmcalc.contract.result import Found, LoadInfo, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.contract.topic import Topic
 from ptmcalc.laws import duty
-from ptmcalc.machines.hoist.keys.drive import CyclePart, Losses
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine.keys.drive import CyclePart, Losses
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 
 WEIGHTED, WHOLE, RUNNING = "cycle_torque_weighted", "cycle_torque_whole", "cycle_torque_running"
 FACTOR, UTILISATION = "cycle_duty_factor", "cycle_utilisation"

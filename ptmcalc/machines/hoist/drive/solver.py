@@ -9,11 +9,11 @@ from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
-from ptmcalc.machines.hoist.keys.drive import Duty
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import EmergencyStop, Hoist, HoistScene, LowerBrake, Start, Stop
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.keys.drive import Duty
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import EmergencyStop, Hoist, HoistScene, LowerBrake, Start, Stop
 
 Numbers = dict[str, float]
 

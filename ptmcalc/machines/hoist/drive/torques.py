@@ -8,10 +8,10 @@ import numpy as np
 from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.components.motor_torque import carrying_speed, overhauling_reserve
 from ptmcalc.laws import brake, duty, hoisting, inertia, start_profile
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.keys.drive import Gearbox
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, Start
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.keys.drive import Gearbox
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import Hoist, Start
 
 MOTOR_SHAFT = "motor"
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from ptmcalc.base.memory import remembered
+from ptmcalc.machines.hoist.machine.spec import Hoist
 from ptmcalc.machines.hoist.motion.train import Case, Moving
-from ptmcalc.machines.hoist.spec import Hoist
 
 
 def case_of(spec: Hoist, scene: Moving, carried: frozenset[str]) -> Case:

@@ -8,12 +8,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, blames, no_needs, no_repair
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.drive.checks import curve_number
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.train import Moving
-from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import backlash, lift_off, rope_rod, two_mass
-from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.loads import FORCES, MOVING
 from ptmcalc.machines.hoist.motion.reduced import (
@@ -21,7 +22,6 @@ from ptmcalc.machines.hoist.motion.reduced import (
     travel,
 )
 from ptmcalc.machines.hoist.motion.train import Case, Moving
-from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

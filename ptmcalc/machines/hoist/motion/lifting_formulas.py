@@ -5,7 +5,8 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import lift_off, lift_off_standard, rope_rod, two_mass
-from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.machines.hoist.motion.reduced import (
     braked_way,
     hook_brake_force,
@@ -16,7 +17,6 @@ from ptmcalc.machines.hoist.motion.reduced import (
     start_hook_speed,
     travel,
 )
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Start, Stop
 
 _BETA = {"slow": 0.5, "quick": 1.0}
 """Factor beta_3 of a slow (grab) and a quick release (magnet) [1], EN 13001-2 and ISO 8686-1. The relief of the

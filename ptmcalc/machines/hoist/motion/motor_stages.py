@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ptmcalc.components.motor import AnyMotor, ConverterMotor
-from ptmcalc.components.motor import Stage as MotorStage
+from ptmcalc.components.motor_stage import Stage as MotorStage
 from ptmcalc.numerics.train.parts import Governed, Law, Smooth, Stage, Straight
 from ptmcalc.numerics.train.signals import Signal
 

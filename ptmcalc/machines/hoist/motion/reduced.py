@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from ptmcalc.laws import brake as braking
 from ptmcalc.laws import reeving
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Stop
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Lift, LowerBrake, Stop
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,12 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.laws import rope_rod
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.keys import tackle
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.keys import tackle
+from ptmcalc.machines.hoist.machine.spec import Hoist, Lift
 from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.reduced import hauling_efficiency, lowering_efficiency, ratio, rope_mass, travel
 from ptmcalc.machines.hoist.motion.train import BRAKE, DRIVE, DRUM, MAINS, MOTOR, STRUCTURE, Case, Moving
-from ptmcalc.machines.hoist.spec import Hoist, Lift
 from ptmcalc.numerics.rope.equations import Hauled, Rod
 from ptmcalc.numerics.rope.parts import NONE, Course, Governed, Haul, Law, Lines, Smooth, Stage, Structure, Tripped
 from ptmcalc.numerics.train import parts

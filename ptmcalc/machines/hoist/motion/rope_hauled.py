@@ -3,10 +3,10 @@
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist.machine.spec import Hoist, Lift, LowerBrake, Start, Stop
 from ptmcalc.machines.hoist.motion.effects import ALWAYS
 from ptmcalc.machines.hoist.motion.loads import MOVING
 from ptmcalc.machines.hoist.motion.train import Moving
-from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
 
 
 def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:

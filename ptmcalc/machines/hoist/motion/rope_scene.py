@@ -10,11 +10,11 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
+from ptmcalc.machines.hoist.machine.spec import Hoist, Lift, Release
 from ptmcalc.machines.hoist.motion import rope_case, scene_failures
 from ptmcalc.machines.hoist.motion import scene as motion
 from ptmcalc.machines.hoist.motion.reduced import travel
 from ptmcalc.machines.hoist.motion.train import Case, Moving
-from ptmcalc.machines.hoist.spec import Hoist, Lift, Release
 from ptmcalc.numerics.rope import rule
 from ptmcalc.numerics.rope.equations import ZD, Hauled, Rod, U, W, Z
 from ptmcalc.numerics.rope.march import March, Panel, Played, energy

@@ -9,6 +9,7 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Event, Finding, Found, History, Result
+from ptmcalc.machines.hoist.machine.spec import Lift, Release, Start
 from ptmcalc.machines.hoist.motion.after_window import over, ringing_on
 from ptmcalc.machines.hoist.motion.course import Course, first_event, first_rest, lift_off_time, play, stopped
 from ptmcalc.machines.hoist.motion.scene_failures import failures, outlasts, remarks
@@ -27,7 +28,6 @@ from ptmcalc.machines.hoist.motion.train import (
     Case,
     Moving,
 )
-from ptmcalc.machines.hoist.spec import Lift, Release, Start
 from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.record import PANEL
 from ptmcalc.numerics.train.modes import frequencies

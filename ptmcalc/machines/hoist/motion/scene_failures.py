@@ -4,9 +4,9 @@ import math
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import Failure, Finding
+from ptmcalc.machines.hoist.machine.spec import Lift, Release, Start
 from ptmcalc.machines.hoist.motion.course import Course, first_event, lift_off_time, stopped
 from ptmcalc.machines.hoist.motion.train import DRIVE, LONGEST, MOTOR, ROPE, Case, Moving
-from ptmcalc.machines.hoist.spec import Lift, Release, Start
 from ptmcalc.numerics.piecewise import JAMMED
 
 

@@ -7,7 +7,7 @@ by the direction of the power through them; the rope only pulls, the load stands
 
 from dataclasses import dataclass
 
-from ptmcalc.machines.hoist.spec import Lift, LowerBrake, Release, Start, Stop
+from ptmcalc.machines.hoist.machine.spec import Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.parts import Smooth, Train
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)

@@ -9,8 +9,9 @@ import numpy as np
 from ptmcalc.components.start import Profile
 from ptmcalc.laws import bodies, start_profile, two_mass
 from ptmcalc.laws import brake as braking
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.machines.hoist.motion.motor_stages import motor_stages
 from ptmcalc.machines.hoist.motion.reduced import (
     braked_way,
@@ -47,7 +48,6 @@ from ptmcalc.machines.hoist.motion.train import (
     Case,
     Moving,
 )
-from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.parts import CLAMPED, NO_PULL, RIGID, Body, Drive, Grip, Guide, Mesh, Spring, Train
 from ptmcalc.numerics.train.signals import ONE, Signal, Trigger

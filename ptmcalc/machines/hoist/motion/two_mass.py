@@ -2,11 +2,11 @@
 
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist.machine.spec import Hoist
 from ptmcalc.machines.hoist.motion.cases import case_of
 from ptmcalc.machines.hoist.motion.effects import ALWAYS, SCENES
 from ptmcalc.machines.hoist.motion.loads import MOVING
 from ptmcalc.machines.hoist.motion.train import TOLERANCES, Moving
-from ptmcalc.machines.hoist.spec import Hoist
 
 
 def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:

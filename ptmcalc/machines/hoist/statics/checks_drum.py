@@ -7,9 +7,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.contract.limits import key
 from ptmcalc.laws import hoist_class
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.model import loaded
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import loaded
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 from ptmcalc.machines.hoist.statics.checks_rope import RUNNING, OneCheck
 
 _FLEET, _FLEET_RESISTANT = math.radians(4), math.radians(2)
@@ -214,8 +214,8 @@ def _hoop_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
 
 
 def _hoop_wanted(spec: Hoist, scene: HoistScene) -> bool:
-    given = spec.drum.shell_thickness is not None or spec.checks.hoop_stress is not None
-    return loaded(spec, scene) and given
+    thickness_alone = spec.drum.shell_thickness is not None and spec.drum.shell is None
+    return loaded(spec, scene) and (thickness_alone or spec.checks.hoop_stress is not None)
 
 
 HOOP: OneCheck = only(_hoop_wanted)(

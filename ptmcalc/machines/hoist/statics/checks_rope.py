@@ -8,9 +8,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.contract.limits import fixed
 from ptmcalc.laws import hoist_class
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.model import loaded
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import loaded
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 
 Loads = Mapping[str, Estimate]
 OneCheck = Check[Hoist, Run]

@@ -4,10 +4,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import brake, hoisting, reeving, wire_rope
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 
 
 def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.machine.spec import Hoist
 
 OF_THE_ROPE = (
     LoadInfo("reeving_efficiency", "reeving efficiency", units.RATIO),

@@ -4,11 +4,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import hoisting, reeving, rope_drum, wire_rope
-from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive.loads import OF_THE_CLASS, OF_THE_DRIVE
 from ptmcalc.machines.hoist.drive.solver import of_the_drive, of_the_use
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import Hoist, HoistScene, Run
 from ptmcalc.machines.hoist.statics.loads import OF_THE_DRUM, OF_THE_ROPE
 
 Numbers = dict[str, float]

@@ -1,7 +1,7 @@
 """Steady hoisting and lowering: rope, sheaves, drum, classification."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.machine.spec import Hoist
 from ptmcalc.machines.hoist.statics.checks_drum import CHECKS_OF_DRUM
 from ptmcalc.machines.hoist.statics.checks_rope import CHECKS_OF_ROPE
 from ptmcalc.machines.hoist.statics.handbook import HOIST_HANDBOOK

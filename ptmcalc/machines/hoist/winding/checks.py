@@ -3,7 +3,7 @@
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.machines.hoist.machine.spec import Hoist, WindUp
 
 WINDING = frozenset({WindUp})
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from ptmcalc.base import units
 from ptmcalc.contract.result import Finding, History
 from ptmcalc.laws import rope_drum, vibration, winding
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import Hoist, WindUp
 from ptmcalc.numerics.hauling import Map, Rope
 
 FloatArray = NDArray[np.float64]

@@ -7,8 +7,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import winding
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import Hoist, WindUp
 from ptmcalc.machines.hoist.winding import paper as winding_paper
 from ptmcalc.machines.hoist.winding.climb import climb, crossover_ratios, detuning, histories, place_of_the_climb
 from ptmcalc.machines.hoist.winding.loads import OF_THE_PAPER, OF_THE_WINDING

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import Hoist, WindUp
 from ptmcalc.machines.hoist.winding.climb import climb, radius_map, rope, sudden_ratio
 from ptmcalc.numerics.hauling import largest_possible
 

@@ -4,8 +4,8 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.machines.hoist.machine.model import filled
+from ptmcalc.machines.hoist.machine.spec import Hoist, WindUp
 from ptmcalc.machines.hoist.winding.climb import (
     FloatArray,
     climb,

@@ -6,8 +6,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import winding
-from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.machines.hoist.machine import model
+from ptmcalc.machines.hoist.machine.spec import Hoist, WindUp
 from ptmcalc.machines.hoist.winding.climb import climb, histories
 from ptmcalc.numerics.decay_pulse import DecayPulse
 

@@ -1,7 +1,7 @@
 """Multilayer winding: the rope climbs to its next layer."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.machine.spec import Hoist
 from ptmcalc.machines.hoist.winding.checks import CHECKS_OF_WINDING
 from ptmcalc.machines.hoist.winding.corrected import WINDING_CORRECTED
 from ptmcalc.machines.hoist.winding.effects import LAYER_MAP

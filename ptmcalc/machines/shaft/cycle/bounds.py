@@ -14,7 +14,7 @@ import numpy as np
 
 from ptmcalc.base.estimate import ANYTHING, Interval
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.machine.model import Machine
 
 
 @dataclass(frozen=True)

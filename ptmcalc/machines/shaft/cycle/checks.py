@@ -8,8 +8,8 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import InductionBase
 from ptmcalc.contract.check import Check, Sense, needs, no_needs
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.shaft.motor_keys import blame_motor, motor_that_can_vary
-from ptmcalc.machines.shaft.spec import Shaft, ShaftScene, Steady
+from ptmcalc.machines.shaft.machine.motor_keys import blame_motor, motor_that_can_vary
+from ptmcalc.machines.shaft.machine.spec import Shaft, ShaftScene, Steady
 
 Loads = Mapping[str, Estimate]
 _BELOW_ONE = math.nextafter(1.0, 0.0)

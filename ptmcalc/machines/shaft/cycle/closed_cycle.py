@@ -10,15 +10,15 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft.cases import cycle_of, inertia_forced_off, machine_in
 from ptmcalc.machines.shaft.cycle import impossible
 from ptmcalc.machines.shaft.cycle.bounds import cycle_shares
 from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
-from ptmcalc.machines.shaft.ledger import Ledger, booked, over_angle
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.results import FLOOR, MARGIN, bar, result_of
-from ptmcalc.machines.shaft.spec import Shaft, Steady
-from ptmcalc.machines.shaft.steady import Cycle, closed_cycle, light_cycle
+from ptmcalc.machines.shaft.machine.cases import cycle_of, inertia_forced_off, machine_in
+from ptmcalc.machines.shaft.machine.ledger import Ledger, booked, over_angle
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.results import FLOOR, MARGIN, bar, result_of
+from ptmcalc.machines.shaft.machine.spec import Shaft, Steady
+from ptmcalc.machines.shaft.machine.steady import Cycle, closed_cycle, light_cycle
 from ptmcalc.numerics.cycle import Orbit
 
 _MOST_SECANTS = 40

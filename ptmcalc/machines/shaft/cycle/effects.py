@@ -3,11 +3,11 @@
 from ptmcalc.base.estimate import ANYTHING, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft.cases import machine_in
 from ptmcalc.machines.shaft.cycle import bounds
 from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
-from ptmcalc.machines.shaft.offsets import Loads, Offsets, offsets, unknown
-from ptmcalc.machines.shaft.spec import Shaft, Steady
+from ptmcalc.machines.shaft.machine.cases import machine_in
+from ptmcalc.machines.shaft.machine.offsets import Loads, Offsets, offsets, unknown
+from ptmcalc.machines.shaft.machine.spec import Shaft, Steady
 
 SLOPE_THRESHOLD = 1.0
 """Period of the load relative to the time constant of motor and shaft [1]; lecture notes Kramatorsk, section on the

@@ -10,11 +10,11 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft.cases import machine_in
 from ptmcalc.machines.shaft.cycle import bounds, impossible, work_balance
 from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
-from ptmcalc.machines.shaft.model import Machine, split
-from ptmcalc.machines.shaft.spec import Shaft, Steady
+from ptmcalc.machines.shaft.machine.cases import machine_in
+from ptmcalc.machines.shaft.machine.model import Machine, split
+from ptmcalc.machines.shaft.machine.spec import Shaft, Steady
 from ptmcalc.numerics.steps import energy_steps
 
 FloatArray = NDArray[np.float64]

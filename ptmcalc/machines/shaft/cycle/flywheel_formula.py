@@ -10,9 +10,9 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft.cases import cycle_of
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.spec import Shaft, Steady
+from ptmcalc.machines.shaft.machine.cases import cycle_of
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.spec import Shaft, Steady
 
 
 def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Result:

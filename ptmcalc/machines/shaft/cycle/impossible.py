@@ -6,10 +6,10 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.motor import InductionBase
 from ptmcalc.contract.result import Failure, Found, Result
-from ptmcalc.machines.shaft.cases import machine_in
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.motor_keys import motor_key
-from ptmcalc.machines.shaft.spec import Shaft, Steady
+from ptmcalc.machines.shaft.machine.cases import machine_in
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.motor_keys import motor_key
+from ptmcalc.machines.shaft.machine.spec import Shaft, Steady
 
 _ROUND_UP = 1.01
 """Margin on a torque that is named as a cure, so that its rounded value still does."""

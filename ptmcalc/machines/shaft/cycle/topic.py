@@ -8,7 +8,7 @@ from ptmcalc.machines.shaft.cycle.energy_step import ENERGY_STEP
 from ptmcalc.machines.shaft.cycle.flywheel_formula import FLYWHEEL_FORMULA
 from ptmcalc.machines.shaft.cycle.loads import LOADS_OF_CYCLE
 from ptmcalc.machines.shaft.cycle.work_balance import WORK_BALANCE
-from ptmcalc.machines.shaft.spec import Shaft
+from ptmcalc.machines.shaft.machine.spec import Shaft
 
 CYCLE: Topic[Shaft] = Topic(
     loads=LOADS_OF_CYCLE,

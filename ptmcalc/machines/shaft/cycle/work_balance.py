@@ -4,11 +4,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft.cases import machine_in
 from ptmcalc.machines.shaft.cycle import bounds, impossible
 from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
-from ptmcalc.machines.shaft.spec import Shaft, Steady
-from ptmcalc.machines.shaft.steady import surely_stalls
+from ptmcalc.machines.shaft.machine.cases import machine_in
+from ptmcalc.machines.shaft.machine.spec import Shaft, Steady
+from ptmcalc.machines.shaft.machine.steady import surely_stalls
 
 
 def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Result:

@@ -3,12 +3,12 @@
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft.cases import machine_in
 from ptmcalc.machines.shaft.cycle import bounds
 from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.offsets import Loads, Offsets, offsets, unknown
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, ShaftScene, Steady
+from ptmcalc.machines.shaft.machine.cases import machine_in
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.offsets import Loads, Offsets, offsets, unknown
+from ptmcalc.machines.shaft.machine.spec import RunOut, RunUp, Shaft, ShaftScene, Steady
 from ptmcalc.machines.shaft.speed_changes import run_out_bounds, run_up_bounds
 from ptmcalc.machines.shaft.speed_changes.cases import mean_torque, stop_case, target_speed
 from ptmcalc.machines.shaft.speed_changes.loads import OF_RUN_OUT, OF_RUN_UP

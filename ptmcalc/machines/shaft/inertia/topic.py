@@ -2,6 +2,6 @@
 
 from ptmcalc.contract.topic import Topic
 from ptmcalc.machines.shaft.inertia.effects import VARYING_INERTIA
-from ptmcalc.machines.shaft.spec import Shaft
+from ptmcalc.machines.shaft.machine.spec import Shaft
 
 INERTIA: Topic[Shaft] = Topic(effects=(VARYING_INERTIA,))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ptmcalc.base import units
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.units import Quantity
-from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.machine.model import Machine
 from ptmcalc.machines.shaft.records import slowing
 from ptmcalc.numerics import decode
 

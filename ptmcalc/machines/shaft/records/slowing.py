@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.machine.model import Machine
 from ptmcalc.numerics import curve_fit
 
 FloatArray = NDArray[np.float64]

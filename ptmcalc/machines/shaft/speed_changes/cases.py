@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found
-from ptmcalc.machines.shaft.cases import cycle_of, machine_for, machine_in
-from ptmcalc.machines.shaft.mechanism import filled
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, ShaftScene, Steady
+from ptmcalc.machines.shaft.machine.cases import cycle_of, machine_for, machine_in
+from ptmcalc.machines.shaft.machine.mechanism import filled
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.spec import RunOut, RunUp, Shaft, ShaftScene, Steady
+from ptmcalc.machines.shaft.machine.steady import Cycle
 from ptmcalc.machines.shaft.speed_changes import run_out_bounds, run_up_bounds
-from ptmcalc.machines.shaft.steady import Cycle
 
 FloatArray = NDArray[np.float64]
 _RUN_UP_SHARE = 0.95

@@ -7,8 +7,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, needs
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.shaft.motor_keys import blame_motor, motor_that_can_vary
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
+from ptmcalc.machines.shaft.machine.motor_keys import blame_motor, motor_that_can_vary
+from ptmcalc.machines.shaft.machine.spec import RunOut, RunUp, Shaft
 from ptmcalc.machines.shaft.speed_changes.cases import is_braked
 from ptmcalc.spec.scene import Scene
 

@@ -2,9 +2,9 @@
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import Failure
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.motor_keys import motor_key
-from ptmcalc.machines.shaft.spec import Shaft
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.motor_keys import motor_key
+from ptmcalc.machines.shaft.machine.spec import Shaft
 
 
 def never_up(spec: Shaft, machine: Machine, target: float) -> tuple[Failure, ...]:

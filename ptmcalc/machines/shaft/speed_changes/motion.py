@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.components.motor import ConverterMotor
-from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.steady import Law, first_grid, rate, refined
 from ptmcalc.machines.shaft.speed_changes.skipping import FEWEST, Skipped, skip
-from ptmcalc.machines.shaft.steady import Law, first_grid, rate, refined
 from ptmcalc.numerics.collocation import radau
 from ptmcalc.numerics.cycle import Grid, Orbit, solve
 from ptmcalc.numerics.passage import ANGLE, TIME, Phase, State, Step, follow

@@ -12,7 +12,7 @@ import numpy as np
 
 from ptmcalc.base.estimate import ANYTHING, Interval
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.machine.model import Machine
 
 _PLACES = 1441
 """Angles at which weights and springs are looked at."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.estimate import Interval
-from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.machine.model import Machine
 
 FloatArray = NDArray[np.float64]
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)

@@ -8,9 +8,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft.cases import machine_in
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.spec import RunUp, Shaft
+from ptmcalc.machines.shaft.machine.cases import machine_in
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.spec import RunUp, Shaft
 from ptmcalc.machines.shaft.speed_changes import run_up_bounds
 from ptmcalc.machines.shaft.speed_changes.cases import target_speed
 from ptmcalc.machines.shaft.speed_changes.failures import never_up

@@ -11,9 +11,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft.cases import machine_in
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
+from ptmcalc.machines.shaft.machine.cases import machine_in
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.spec import RunOut, RunUp, Shaft
 from ptmcalc.machines.shaft.speed_changes import run_up_bounds
 from ptmcalc.machines.shaft.speed_changes.cases import departure, target_speed
 from ptmcalc.numerics.steps import Table, step_table

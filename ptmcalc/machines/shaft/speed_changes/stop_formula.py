@@ -7,7 +7,7 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft.spec import RunOut, Shaft
+from ptmcalc.machines.shaft.machine.spec import RunOut, Shaft
 from ptmcalc.machines.shaft.speed_changes import run_out_bounds
 from ptmcalc.machines.shaft.speed_changes.cases import departure, is_braked, stop_case
 from ptmcalc.machines.shaft.speed_changes.loads import OF_RUN_OUT

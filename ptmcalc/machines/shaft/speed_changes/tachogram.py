@@ -12,10 +12,10 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver, always_valid
-from ptmcalc.machines.shaft.cases import cycle_of, inertia_forced_off, machine_in
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.results import bar, result_of
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
+from ptmcalc.machines.shaft.machine.cases import cycle_of, inertia_forced_off, machine_in
+from ptmcalc.machines.shaft.machine.model import Machine
+from ptmcalc.machines.shaft.machine.results import bar, result_of
+from ptmcalc.machines.shaft.machine.spec import RunOut, RunUp, Shaft
 from ptmcalc.machines.shaft.speed_changes import motion, speed_quadrature, worst
 from ptmcalc.machines.shaft.speed_changes.cases import (
     Departure,

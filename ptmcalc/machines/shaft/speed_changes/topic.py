@@ -1,7 +1,7 @@
 """Run-up and run-out: time and angle, starting torque, brake."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.shaft.spec import Shaft
+from ptmcalc.machines.shaft.machine.spec import Shaft
 from ptmcalc.machines.shaft.speed_changes.checks import CHECKS_OF_SPEED_CHANGES
 from ptmcalc.machines.shaft.speed_changes.loads import LOADS_OF_RUN_OUT, LOADS_OF_RUN_UP
 from ptmcalc.machines.shaft.speed_changes.speed_quadrature import SPEED_QUADRATURE

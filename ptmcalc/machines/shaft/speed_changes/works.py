@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ptmcalc.machines.shaft.ledger import ORDER, Ledger, Nodes, booked, over_angle
-from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.machine.ledger import ORDER, Ledger, Nodes, booked, over_angle
+from ptmcalc.machines.shaft.machine.model import Machine
 from ptmcalc.machines.shaft.speed_changes.motion import Part, Run
 
 

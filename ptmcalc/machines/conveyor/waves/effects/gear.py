@@ -6,15 +6,10 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.loads import OF_STOP
-from ptmcalc.machines.conveyor.spec import (
-    Coast,
-    Conveyor,
-    ConveyorScene,
-    EmergencyStop,
-    Stop,
-)
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.loads import OF_STOP
+from ptmcalc.machines.conveyor.machine.scenes import Coast, ConveyorScene, EmergencyStop, Stop
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.stopping.gear_losses import GearChange, changing_sides
 from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, moved_by

@@ -3,17 +3,12 @@
 import math
 
 from ptmcalc.contract.effect import Criterion, Effect
-from ptmcalc.machines.conveyor.model import belt_line
-from ptmcalc.machines.conveyor.plain_start import SPEED_SHARE_THRESHOLD, thrown_back
-from ptmcalc.machines.conveyor.rigid_stop import deceleration
-from ptmcalc.machines.conveyor.spec import (
-    IN_MOTION,
-    Conveyor,
-    ConveyorScene,
-    Start,
-    Stopping,
-)
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine.model import belt_line
+from ptmcalc.machines.conveyor.machine.plain_start import SPEED_SHARE_THRESHOLD, thrown_back
+from ptmcalc.machines.conveyor.machine.rigid_stop import deceleration
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Start, Stopping
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, belt_mass, moved_by, slides_first
 from ptmcalc.machines.conveyor.waves.load_errors import Change
 

@@ -4,18 +4,13 @@ import math
 
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import start_profile, wave
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.model import BeltLine, belt_line
-from ptmcalc.machines.conveyor.motion import moving
-from ptmcalc.machines.conveyor.plain_start import delay_lines_do
-from ptmcalc.machines.conveyor.spec import (
-    IN_MOTION,
-    Conveyor,
-    ConveyorScene,
-    Jam,
-    Start,
-)
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.model import BeltLine, belt_line
+from ptmcalc.machines.conveyor.machine.motion import moving
+from ptmcalc.machines.conveyor.machine.plain_start import delay_lines_do
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Jam, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 from ptmcalc.machines.conveyor.waves import load_errors, start_enclosure
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, moved_by
 from ptmcalc.machines.conveyor.waves.load_errors import Change

@@ -5,17 +5,13 @@ import math
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.model import BeltLine, belt_line
-from ptmcalc.machines.conveyor.motion import moving
-from ptmcalc.machines.conveyor.plain_start import delay_lines_do
-from ptmcalc.machines.conveyor.spec import (
-    IN_MOTION,
-    Conveyor,
-    ConveyorScene,
-    Start,
-)
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.model import BeltLine, belt_line
+from ptmcalc.machines.conveyor.machine.motion import moving
+from ptmcalc.machines.conveyor.machine.plain_start import delay_lines_do
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 from ptmcalc.machines.conveyor.waves import load_errors, start_intervals
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, grown, moved_by
 

@@ -5,18 +5,13 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, DRIVE_OF_STOP, OF_STOP
-from ptmcalc.machines.conveyor.model import BeltLine
-from ptmcalc.machines.conveyor.plain_start import slides_at_rest
-from ptmcalc.machines.conveyor.rigid_stop import deceleration
-from ptmcalc.machines.conveyor.spec import (
-    ControlledStop,
-    Conveyor,
-    ConveyorScene,
-    Start,
-    Stopping,
-)
-from ptmcalc.machines.conveyor.start_case import StartCase, start_case
+from ptmcalc.machines.conveyor.machine.loads import CHANGED_BY_MOTION, DRIVE, DRIVE_OF_STOP, OF_STOP
+from ptmcalc.machines.conveyor.machine.model import BeltLine
+from ptmcalc.machines.conveyor.machine.plain_start import slides_at_rest
+from ptmcalc.machines.conveyor.machine.rigid_stop import deceleration
+from ptmcalc.machines.conveyor.machine.scenes import ControlledStop, ConveyorScene, Start, Stopping
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, start_case
 from ptmcalc.machines.conveyor.waves import load_errors, start_enclosure
 from ptmcalc.machines.conveyor.waves.load_errors import Change
 

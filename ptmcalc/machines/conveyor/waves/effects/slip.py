@@ -1,15 +1,11 @@
 """Belt slip at the drive pulleys."""
 
 from ptmcalc.contract.effect import Criterion, Effect
-from ptmcalc.machines.conveyor.motion import rough_utilisation
-from ptmcalc.machines.conveyor.plain_start import is_plain
-from ptmcalc.machines.conveyor.spec import (
-    IN_MOTION,
-    Conveyor,
-    ConveyorScene,
-    Start,
-)
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine.motion import rough_utilisation
+from ptmcalc.machines.conveyor.machine.plain_start import is_plain
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 from ptmcalc.machines.conveyor.waves import start_enclosure, start_intervals
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything
 

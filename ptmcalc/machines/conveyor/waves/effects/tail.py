@@ -3,14 +3,11 @@
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.model import (
+from ptmcalc.machines.conveyor.machine.model import (
     belt_line,
 )
-from ptmcalc.machines.conveyor.spec import (
-    IN_MOTION,
-    Conveyor,
-    ConveyorScene,
-)
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, belt_mass, small_change
 
 JUMP_THRESHOLD = 0.02

@@ -1,17 +1,13 @@
 """Inertia of the take-up weight."""
 
 from ptmcalc.contract.effect import Criterion, Effect
-from ptmcalc.machines.conveyor.drives import moving_mass, running
-from ptmcalc.machines.conveyor.model import BeltLine
-from ptmcalc.machines.conveyor.plain_start import inertia_of_weight, takeup_numbers
-from ptmcalc.machines.conveyor.rigid_stop import deceleration
-from ptmcalc.machines.conveyor.spec import (
-    IN_MOTION,
-    Conveyor,
-    ConveyorScene,
-    Start,
-)
-from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.machine.drives import moving_mass, running
+from ptmcalc.machines.conveyor.machine.model import BeltLine
+from ptmcalc.machines.conveyor.machine.plain_start import inertia_of_weight, takeup_numbers
+from ptmcalc.machines.conveyor.machine.rigid_stop import deceleration
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Start
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import start_case
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, moved_by, slides_first
 from ptmcalc.machines.conveyor.waves.load_errors import Change
 

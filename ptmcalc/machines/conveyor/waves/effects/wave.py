@@ -5,18 +5,12 @@ import math
 from ptmcalc.base.estimate import NOTHING
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.plain_start import is_plain
-from ptmcalc.machines.conveyor.rigid_stop import deceleration
-from ptmcalc.machines.conveyor.spec import (
-    IN_MOTION,
-    Conveyor,
-    ConveyorScene,
-    Jam,
-    Start,
-    Stopping,
-)
-from ptmcalc.machines.conveyor.start_case import StartCase, start_case
+from ptmcalc.machines.conveyor.machine.drives import running
+from ptmcalc.machines.conveyor.machine.plain_start import is_plain
+from ptmcalc.machines.conveyor.machine.rigid_stop import deceleration
+from ptmcalc.machines.conveyor.machine.scenes import IN_MOTION, ConveyorScene, Jam, Start, Stopping
+from ptmcalc.machines.conveyor.machine.spec import Conveyor
+from ptmcalc.machines.conveyor.machine.start_case import StartCase, start_case
 from ptmcalc.machines.conveyor.stopping import stiff_bounds
 from ptmcalc.machines.conveyor.waves import start_enclosure, start_intervals
 from ptmcalc.machines.conveyor.waves.effects.idlers import slides_on, speed_bound

@@ -6,9 +6,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, torque_key, torque_repair, turns
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.judging import SLEWING, OneCheck, torque_key, torque_repair, turns
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 
 STALL: OneCheck = Check(
     code="CRN101",

@@ -4,8 +4,8 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.check import Check, Sense, blames, needs, no_repair, only
-from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine.judging import SLEWING, OneCheck
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 
 
 def _group(spec: SlewingCrane, scene: SlewingScene) -> Estimate:

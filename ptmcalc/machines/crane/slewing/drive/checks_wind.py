@@ -6,10 +6,10 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import braking_number_at
 from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, needs, no_needs, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.drive import reserves
-from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, torque_repair
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.judging import SLEWING, OneCheck, torque_repair
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 
 _HOLDING = key(
     "checks.holding_reserve",

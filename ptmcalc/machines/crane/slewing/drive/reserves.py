@@ -4,9 +4,9 @@ import math
 
 from ptmcalc.components.motor_torque import overhauling_reserve
 from ptmcalc.laws import duty
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.model import Phases, PhaseTorques
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.model import Phases, PhaseTorques
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 
 
 def ratio_to(value: float, limit: float) -> float:

@@ -5,7 +5,7 @@ from ptmcalc.machines.crane.slewing.drive.checks import CHECKS_OF_DRIVE
 from ptmcalc.machines.crane.slewing.drive.checks_duty import GROUP
 from ptmcalc.machines.crane.slewing.drive.checks_wind import CHECKS_OF_WIND
 from ptmcalc.machines.crane.slewing.drive.loads import OF_THE_DRIVE, OF_THE_USE
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane
 
 DRIVE: Topic[SlewingCrane] = Topic(
     loads=(*OF_THE_DRIVE, *OF_THE_USE),

@@ -2,7 +2,7 @@
 
 from ptmcalc.contract.check import Check, Sense, blames, no_repair, only
 from ptmcalc.contract.limits import fixed
-from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck
+from ptmcalc.machines.crane.slewing.machine.judging import SLEWING, OneCheck
 
 RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
     Check(

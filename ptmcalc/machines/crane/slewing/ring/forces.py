@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.spec import RingPoint, SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import RingPoint, SlewingCrane, SlewingScene
 
 
 def known(spec: SlewingCrane) -> bool:

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.laws import duty, slewing
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.ring.loads import RING_LOADS
 from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]

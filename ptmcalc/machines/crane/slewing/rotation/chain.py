@@ -4,10 +4,10 @@ import math
 from collections.abc import Mapping
 
 from ptmcalc.laws import slewing
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.rotation import start_curve
 from ptmcalc.machines.crane.slewing.rotation.loads import OF_THE_CHAIN
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 GIVEN = frozenset(info.name for info in OF_THE_CHAIN)
 """Loads of the chain."""

@@ -2,7 +2,15 @@
 
 from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, needs, no_needs, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, reaches, starts, torque_key, torque_repair, turns
+from ptmcalc.machines.crane.slewing.machine.judging import (
+    SLEWING,
+    OneCheck,
+    reaches,
+    starts,
+    torque_key,
+    torque_repair,
+    turns,
+)
 
 SLOW: OneCheck = only(reaches)(
     Check(

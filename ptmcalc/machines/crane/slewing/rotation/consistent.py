@@ -7,13 +7,13 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification
-from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.drive import reserves
 from ptmcalc.machines.crane.slewing.drive.loads import OF_THE_DRIVE, OF_THE_USE
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.ring import forces
 from ptmcalc.machines.crane.slewing.ring.loads import OF_THE_RING
 from ptmcalc.machines.crane.slewing.rotation import chain, start_curve
-from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 
 _QUADRATURE = 1e-9
 """Error of a number that hangs on the time of a start along a curve, over it."""

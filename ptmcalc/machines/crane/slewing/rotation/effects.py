@@ -4,11 +4,11 @@ import math
 
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.rotation import bounds
 from ptmcalc.machines.crane.slewing.rotation.bounds import Loads, Offsets
 from ptmcalc.machines.crane.slewing.rotation.consistent import found_of
-from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.spec.scene import Scene
 
 _SCENES: frozenset[type[Scene]] = frozenset({Slew})

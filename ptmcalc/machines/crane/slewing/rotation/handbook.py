@@ -5,9 +5,9 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:

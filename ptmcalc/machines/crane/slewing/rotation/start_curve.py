@@ -9,9 +9,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.components.motor import ConverterMotor, Stage
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 
 FloatArray = NDArray[np.float64]
 

@@ -4,11 +4,11 @@ import math
 
 from ptmcalc.base.estimate import ANYTHING, Interval
 from ptmcalc.laws import slewing
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.ring import forces
 from ptmcalc.machines.crane.slewing.ring.loads import RING_LOADS
 from ptmcalc.machines.crane.slewing.rotation.bounds import Loads, Offsets, bar, of_times, unknown
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
 def of_swing(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:

@@ -5,9 +5,9 @@ import math
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, at, blames, needs, only
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, curve_number, torque_key, turns
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.judging import SLEWING, OneCheck, curve_number, torque_key, turns
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 
 _ALLOWED_SWAY = key(
     "checks.sway",

@@ -8,9 +8,9 @@ import math
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import pendulum
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.rotation.bounds import Loads, Offsets
-from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway import bounds
 from ptmcalc.spec.scene import Scene
 

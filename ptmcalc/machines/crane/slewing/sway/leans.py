@@ -6,8 +6,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import pendulum
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway.slew import hangs
 
 

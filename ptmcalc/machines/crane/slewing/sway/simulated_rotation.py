@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.components.motor import ConverterMotor, Stage
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
 from ptmcalc.contract.result import Event
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane, SlewingScene
 from ptmcalc.numerics.pendulum.equations import KEEP
 from ptmcalc.numerics.pendulum.parts import Axis, Case, Follow, Gear, Jib, Load, Peak, Push, Smooth, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces

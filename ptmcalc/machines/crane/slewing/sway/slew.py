@@ -8,13 +8,13 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.drive import reserves
 from ptmcalc.machines.crane.slewing.drive.loads import OF_THE_DRIVE
+from ptmcalc.machines.crane.slewing.machine import model
+from ptmcalc.machines.crane.slewing.machine.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.ring import forces
 from ptmcalc.machines.crane.slewing.ring.loads import OF_THE_RING
 from ptmcalc.machines.crane.slewing.rotation import chain
-from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
 from ptmcalc.machines.crane.slewing.sway.simulated_rotation import Rotation, rotation
 

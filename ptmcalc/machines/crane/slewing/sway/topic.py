@@ -1,7 +1,7 @@
 """Sway of the load in start, steady slewing and stop."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.crane.slewing.spec import SlewingCrane
+from ptmcalc.machines.crane.slewing.machine.spec import SlewingCrane
 from ptmcalc.machines.crane.slewing.sway.checks import CHECKS_OF_SWAY
 from ptmcalc.machines.crane.slewing.sway.effects import EFFECTS_OF_SWAY
 from ptmcalc.machines.crane.slewing.sway.leans import LEANS

@@ -6,10 +6,10 @@ from ptmcalc.components.buffer import stopped
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.loads import OF_THE_BUFFERS, names
-from ptmcalc.machines.crane.stacking.scenes import BufferScene
-from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.loads import OF_THE_BUFFERS, names
+from ptmcalc.machines.crane.stacking.machine.scenes import BufferScene
+from ptmcalc.machines.crane.stacking.machine.spec import MECHANISMS, Stacker
 
 
 def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) -> Result:

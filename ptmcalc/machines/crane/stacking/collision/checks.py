@@ -5,13 +5,13 @@ from collections.abc import Callable
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, only
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.judging import OneCheck, given
-from ptmcalc.machines.crane.stacking.scenes import (
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.judging import OneCheck, given
+from ptmcalc.machines.crane.stacking.machine.scenes import (
     BufferScene,
     StackerScene,
 )
-from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import MECHANISMS, Stacker
 from ptmcalc.spec.scene import Scene
 
 Path = Callable[[Stacker, StackerScene], KeyPath]

@@ -6,12 +6,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer, obstacle
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.columns import Swinging, swinging
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.columns import Swinging, swinging
+from ptmcalc.machines.crane.stacking.machine.overhead import OverheadStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import ObstacleScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast.names import CONTACT, FLEXIBLE, MASS
-from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
-from ptmcalc.machines.crane.stacking.scenes import ObstacleScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_derived
 
 SCENES = frozenset({ObstacleScene})

@@ -8,9 +8,9 @@ from ptmcalc.machines.crane.stacking.collision.obstacle_energy import (
     OBSTACLE_ENERGY,
     OBSTACLE_TIP_STOPPED,
 )
-from ptmcalc.machines.crane.stacking.loads import OF_THE_BUFFERS, OF_THE_OBSTACLE
+from ptmcalc.machines.crane.stacking.machine.loads import OF_THE_BUFFERS, OF_THE_OBSTACLE
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast.modal import COLLISION_MODAL
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 COLLISION: Topic[Stacker] = Topic(
     loads=(*OF_THE_OBSTACLE, *OF_THE_BUFFERS),

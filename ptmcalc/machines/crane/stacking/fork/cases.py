@@ -3,10 +3,10 @@
 import math
 
 from ptmcalc.laws import fork
-from ptmcalc.machines.crane.stacking import columns, model
 from ptmcalc.machines.crane.stacking.fork.masses import Catch, Limit, Push
-from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine import columns, model
+from ptmcalc.machines.crane.stacking.machine.scenes import ForkCaught, ForkPush
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 
 def catch_of(spec: Stacker, scene: ForkCaught) -> Catch:

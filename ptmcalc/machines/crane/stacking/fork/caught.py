@@ -11,9 +11,9 @@ from ptmcalc.laws import fork
 from ptmcalc.machines.crane.stacking.fork.cases import catch_of
 from ptmcalc.machines.crane.stacking.fork.effects import CATCHING, LIMITER, RACK, SLOPE
 from ptmcalc.machines.crane.stacking.fork.masses import MOTOR, Catch
-from ptmcalc.machines.crane.stacking.marching import MOST_SPREAD, course, spread
-from ptmcalc.machines.crane.stacking.scenes import ForkCaught
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.marching import MOST_SPREAD, course, spread
+from ptmcalc.machines.crane.stacking.machine.scenes import ForkCaught
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import with_derived
 
 _SCENES = frozenset({ForkCaught})

@@ -7,15 +7,15 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.fork.cases import catch_of, push_of
-from ptmcalc.machines.crane.stacking.judging import OneCheck, given
-from ptmcalc.machines.crane.stacking.scenes import (
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.judging import OneCheck, given
+from ptmcalc.machines.crane.stacking.machine.scenes import (
     ForkCaught,
     ForkPush,
     StackerScene,
 )
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.spec.scene import Scene
 
 CAUGHT: frozenset[type[Scene]] = frozenset({ForkCaught})

@@ -7,8 +7,8 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import fork
 from ptmcalc.machines.crane.stacking.fork.cases import catch_of, push_of
-from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.scenes import ForkCaught, ForkPush
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import bounds_of_derived
 from ptmcalc.spec.scene import Scene
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ptmcalc.laws import fork
-from ptmcalc.machines.crane.stacking.marching import Played, Reading, slowest
+from ptmcalc.machines.crane.stacking.machine.marching import Played, Reading, slowest
 from ptmcalc.numerics.train.parts import LINEAR, NO_PULL, Body, Drive, Grip, Guide, Spring, Straight, Train
 from ptmcalc.numerics.train.signals import ONE, Signal, Trigger
 

@@ -8,9 +8,9 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.stacking.fork.cases import push_of
 from ptmcalc.machines.crane.stacking.fork.effects import PUSHING, YIELDING
-from ptmcalc.machines.crane.stacking.marching import MOST_SPREAD, course, spread
-from ptmcalc.machines.crane.stacking.scenes import ForkPush
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.marching import MOST_SPREAD, course, spread
+from ptmcalc.machines.crane.stacking.machine.scenes import ForkPush
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import with_derived
 
 _SCENES = frozenset({ForkPush})

@@ -5,8 +5,8 @@ from ptmcalc.machines.crane.stacking.fork.caught import CAUGHT_HANDBOOK, CAUGHT_
 from ptmcalc.machines.crane.stacking.fork.checks import CHECKS_OF_THE_FORK
 from ptmcalc.machines.crane.stacking.fork.effects import EFFECTS_OF_THE_FORK
 from ptmcalc.machines.crane.stacking.fork.pushed import PUSH_HANDBOOK, PUSH_RIGID, PUSH_TRAIN
-from ptmcalc.machines.crane.stacking.loads import OF_THE_FORK
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.loads import OF_THE_FORK
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 FORK: Topic[Stacker] = Topic(
     loads=OF_THE_FORK,

@@ -9,12 +9,12 @@ from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import mast_modes
 from ptmcalc.laws.mast_modes import Mast
-from ptmcalc.machines.crane.stacking.columns import rest_deflection, standing, swinging
-from ptmcalc.machines.crane.stacking.loads import MODES
+from ptmcalc.machines.crane.stacking.machine.columns import rest_deflection, standing, swinging
+from ptmcalc.machines.crane.stacking.machine.loads import MODES
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, DrivenScene, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.travelling import push_of, travels
 from ptmcalc.machines.crane.stacking.mast.handbook import remarks
-from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, StackerScene, Stand, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
-from ptmcalc.machines.crane.stacking.travelling import push_of, travels
 
 _DIGITS = 64 * float(np.finfo(float).eps)
 """Rounding of a dynamic stiffness whose terms are a dozen times E J/l^3, as a share of that."""

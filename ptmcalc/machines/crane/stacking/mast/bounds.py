@@ -10,17 +10,17 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.result import of
 from ptmcalc.laws import mast_modes
-from ptmcalc.machines.crane.stacking import model, travelling
-from ptmcalc.machines.crane.stacking.columns import buckling_share, swinging
-from ptmcalc.machines.crane.stacking.loads import MODES
+from ptmcalc.machines.crane.stacking.machine import model, travelling
+from ptmcalc.machines.crane.stacking.machine.columns import buckling_share, swinging
+from ptmcalc.machines.crane.stacking.machine.loads import MODES
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast import march
 from ptmcalc.machines.crane.stacking.mast.march import Happening
 from ptmcalc.machines.crane.stacking.mast.names import GRAVITY
 from ptmcalc.machines.crane.stacking.mast.resting import at_rest
 from ptmcalc.machines.crane.stacking.mast.two_mass import course_of, lumped
 from ptmcalc.machines.crane.stacking.mechanisms import starts
-from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import bounds_of_derived
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import FloatArray

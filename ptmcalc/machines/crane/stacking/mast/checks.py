@@ -3,11 +3,11 @@
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, needs, no_needs, no_repair, only
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, block, of_the_mechanism
-from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
-from ptmcalc.machines.crane.stacking.travelling import turns
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.judging import Loads, OneCheck, block, of_the_mechanism
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, ObstacleScene, StackerScene, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.travelling import turns
 from ptmcalc.spec.scene import Scene
 
 DRIVEN: frozenset[type[Scene]] = frozenset({Start, Brake})

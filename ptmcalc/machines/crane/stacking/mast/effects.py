@@ -7,15 +7,15 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import mast as law
 from ptmcalc.laws import mast_modes
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.columns import Swinging, swinging
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.columns import Swinging, swinging
+from ptmcalc.machines.crane.stacking.machine.model import Push
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.travelling import push_of, turns
 from ptmcalc.machines.crane.stacking.mast import bounds
 from ptmcalc.machines.crane.stacking.mast.names import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS, MODES
 from ptmcalc.machines.crane.stacking.mechanisms import starts
-from ptmcalc.machines.crane.stacking.model import Push
-from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
-from ptmcalc.machines.crane.stacking.travelling import push_of, turns
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

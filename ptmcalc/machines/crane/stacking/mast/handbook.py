@@ -6,11 +6,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import mast, mast_modes
-from ptmcalc.machines.crane.stacking.columns import Swinging, swinging
-from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.columns import Swinging, swinging
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, DrivenScene, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.travelling import push_of, travels
 from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_derived
-from ptmcalc.machines.crane.stacking.travelling import push_of, travels
 
 LARGEST_ERROR = 0.05
 """Of the notes' coefficients against the consistent masses, above which the tool says so."""

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.laws.contact_damping import dashpot_ratio
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.columns import swinging
-from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
-from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.columns import swinging
+from ptmcalc.machines.crane.stacking.machine.overhead import OverheadStacker
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, ObstacleScene, StackerScene, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
 from ptmcalc.numerics.mast.case import Case
 from ptmcalc.numerics.mast.modes import Mast

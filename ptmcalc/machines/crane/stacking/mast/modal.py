@@ -12,8 +12,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.loads import MODES
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.loads import MODES
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.travelling import evenly
 from ptmcalc.machines.crane.stacking.mast import march
 from ptmcalc.machines.crane.stacking.mast.march import Built, Happening
 from ptmcalc.machines.crane.stacking.mast.modal_readings import (
@@ -25,10 +28,7 @@ from ptmcalc.machines.crane.stacking.mast.modal_readings import (
 )
 from ptmcalc.machines.crane.stacking.mast.names import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS
 from ptmcalc.machines.crane.stacking.mast.names import MODES as MODES_HIGHER
-from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_derived
-from ptmcalc.machines.crane.stacking.travelling import evenly
 from ptmcalc.numerics.mast.modes import Mast, frequencies, speed_left_out, wanted
 from ptmcalc.numerics.mast.parts import Column
 from ptmcalc.numerics.mast.run import Course, play

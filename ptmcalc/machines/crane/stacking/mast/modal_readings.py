@@ -8,10 +8,10 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.result import Found
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, StackerScene, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mast.march import Happening
 from ptmcalc.machines.crane.stacking.mast.resting import at_rest
-from ptmcalc.machines.crane.stacking.scenes import Brake, StackerScene, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.numerics.mast.modes import Mast, left_out, moment_left_out
 from ptmcalc.numerics.mast.run import Course
 

@@ -1,8 +1,8 @@
 """When a column is still beside the place its fork has to meet."""
 
-from ptmcalc.machines.crane.stacking.columns import rest_deflection
-from ptmcalc.machines.crane.stacking.scenes import StackerScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.columns import rest_deflection
+from ptmcalc.machines.crane.stacking.machine.scenes import StackerScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.numerics.mast.run import Course, settled
 from ptmcalc.numerics.mast.settling import Settled
 

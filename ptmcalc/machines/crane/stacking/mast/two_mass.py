@@ -6,12 +6,12 @@ import numpy as np
 
 from ptmcalc.base.memory import remembered
 from ptmcalc.laws import mast as law
-from ptmcalc.machines.crane.stacking.columns import Swinging, swinging
+from ptmcalc.machines.crane.stacking.machine.columns import Swinging, swinging
+from ptmcalc.machines.crane.stacking.machine.scenes import DrivenScene, StackerScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.travelling import push_of
 from ptmcalc.machines.crane.stacking.mast import march
 from ptmcalc.machines.crane.stacking.mast.march import Happening
-from ptmcalc.machines.crane.stacking.scenes import DrivenScene, StackerScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
-from ptmcalc.machines.crane.stacking.travelling import push_of
 from ptmcalc.numerics.mast.assumed import one_shape
 from ptmcalc.numerics.mast.case import Case
 from ptmcalc.numerics.mast.modes import Mast

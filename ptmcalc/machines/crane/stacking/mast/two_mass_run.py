@@ -8,15 +8,15 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Event, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking.columns import swinging
+from ptmcalc.machines.crane.stacking.machine.columns import swinging
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, DrivenScene, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.travelling import evenly, push_of
 from ptmcalc.machines.crane.stacking.mast import march
 from ptmcalc.machines.crane.stacking.mast.names import FLEXIBLE, GRAVITY, HOLDING, MASS
 from ptmcalc.machines.crane.stacking.mast.resting import at_rest
 from ptmcalc.machines.crane.stacking.mast.two_mass import course_of
-from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_derived
-from ptmcalc.machines.crane.stacking.travelling import evenly, push_of
 from ptmcalc.numerics.mast.run import Course
 
 ALWAYS = frozenset({FLEXIBLE, MASS, HOLDING})

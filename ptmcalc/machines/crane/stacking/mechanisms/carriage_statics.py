@@ -3,10 +3,10 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking.loads import OF_THE_HOIST, names
+from ptmcalc.machines.crane.stacking.machine.loads import OF_THE_HOIST, names
+from ptmcalc.machines.crane.stacking.machine.scenes import HoistScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mechanisms import climbing, starts
-from ptmcalc.machines.crane.stacking.scenes import HoistScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
 def run(spec: Stacker, scene: HoistScene, carried: frozenset[str], level: int) -> Result:

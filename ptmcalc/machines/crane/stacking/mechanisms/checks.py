@@ -5,12 +5,12 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, only
 from ptmcalc.contract.limits import fixed, key
 from ptmcalc.laws import hoist_class
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.judging import OneCheck, block, given
-from ptmcalc.machines.crane.stacking.keys.drives import Rotation
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.judging import OneCheck, block, given
+from ptmcalc.machines.crane.stacking.machine.keys.drives import Rotation
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, Braked, HoistScene, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mechanisms import starts
-from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, HoistScene, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
 
 ROLLERS: OneCheck = Check(

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found
 from ptmcalc.laws import carriage, wire_rope
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.scenes import HoistScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.scenes import HoistScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 
 @dataclass(frozen=True, slots=True)

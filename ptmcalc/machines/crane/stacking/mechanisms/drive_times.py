@@ -3,10 +3,10 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, Braked, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.mechanisms import starts
-from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
 def run(spec: Stacker, scene: Braked, carried: frozenset[str], level: int) -> Result:

@@ -6,10 +6,10 @@ import numpy as np
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.laws import mast as law
-from ptmcalc.machines.crane.stacking import columns, model
-from ptmcalc.machines.crane.stacking.keys.drives import Rotation, Travel
-from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine import columns, model
+from ptmcalc.machines.crane.stacking.machine.keys.drives import Rotation, Travel
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, Braked, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 
 def of_the_hoist(spec: Stacker) -> float | None:

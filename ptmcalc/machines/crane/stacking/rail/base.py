@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.laws import rail
-from ptmcalc.machines.crane.stacking import columns, model
-from ptmcalc.machines.crane.stacking.model import filled
-from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import RailScene
+from ptmcalc.machines.crane.stacking.machine import columns, model
+from ptmcalc.machines.crane.stacking.machine.model import filled
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import RailScene
 
 _NODES = 5
 """Of the quadrature of a column's shape: exact for its polynomials."""

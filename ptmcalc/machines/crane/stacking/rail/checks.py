@@ -3,15 +3,15 @@
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.stacking.judging import OneCheck
-from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.rail.base import roll_of
-from ptmcalc.machines.crane.stacking.rail.rolling import wave_share
-from ptmcalc.machines.crane.stacking.scenes import (
+from ptmcalc.machines.crane.stacking.machine.judging import OneCheck
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import (
     RailScene,
     StackerScene,
 )
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
+from ptmcalc.machines.crane.stacking.rail.base import roll_of
+from ptmcalc.machines.crane.stacking.rail.rolling import wave_share
 from ptmcalc.spec.scene import Scene
 
 ROLLS: frozenset[type[Scene]] = frozenset({RailScene})

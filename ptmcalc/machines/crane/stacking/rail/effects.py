@@ -4,10 +4,10 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
-from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import RailScene
 from ptmcalc.machines.crane.stacking.rail.base import roll_of
 from ptmcalc.machines.crane.stacking.rail.rolling import wave_share
-from ptmcalc.machines.crane.stacking.scenes import RailScene
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

@@ -8,9 +8,10 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import rail
-from ptmcalc.machines.crane.stacking.loads import OF_THE_RAIL, names
-from ptmcalc.machines.crane.stacking.marching import Course, compared
-from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.loads import OF_THE_RAIL, names
+from ptmcalc.machines.crane.stacking.machine.marching import Course, compared
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import RailScene
 from ptmcalc.machines.crane.stacking.rail.base import Roll, Swinger, roll_of, wheel_load
 from ptmcalc.machines.crane.stacking.rail.effects import JUMPING, UNEVEN
 from ptmcalc.machines.crane.stacking.rail.rolling import (
@@ -23,7 +24,6 @@ from ptmcalc.machines.crane.stacking.rail.rolling import (
     wave_share,
     wave_swing,
 )
-from ptmcalc.machines.crane.stacking.scenes import RailScene
 from ptmcalc.machines.crane.stacking.strength.derived import with_derived
 from ptmcalc.numerics.train.parts import LINEAR, NO_PULL
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ptmcalc.laws import rail, vibration
-from ptmcalc.machines.crane.stacking.marching import Played, Reading, Stages, play
+from ptmcalc.machines.crane.stacking.machine.marching import Played, Reading, Stages, play
 from ptmcalc.machines.crane.stacking.rail.base import Roll, Swinger
 from ptmcalc.numerics.train.parts import LINEAR, NO_PULL, Body, Drive, Spring, Train
 from ptmcalc.numerics.train.signals import Signal, Sine

@@ -1,11 +1,11 @@
 """Rail: steps, gaps and waviness, wheels that lift off."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.crane.stacking.loads import OF_THE_RAIL
+from ptmcalc.machines.crane.stacking.machine.loads import OF_THE_RAIL
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.rail.checks import CHECKS_OF_THE_RAIL
 from ptmcalc.machines.crane.stacking.rail.effects import EFFECTS_OF_THE_RAIL
 from ptmcalc.machines.crane.stacking.rail.roll import RAIL_JUMP, RAIL_RESPONSE, RAIL_STANDARD
-from ptmcalc.machines.crane.stacking.spec import Stacker
 
 RAIL: Topic[Stacker] = Topic(
     loads=OF_THE_RAIL,

@@ -7,11 +7,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import safety_gear
-from ptmcalc.machines.crane.stacking.loads import OF_THE_SAFETY_GEAR, names
+from ptmcalc.machines.crane.stacking.machine.loads import OF_THE_SAFETY_GEAR, names
+from ptmcalc.machines.crane.stacking.machine.scenes import SafetyGearScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.safety_gear.effects import GEAR
 from ptmcalc.machines.crane.stacking.safety_gear.fall import Fall, fall_of
-from ptmcalc.machines.crane.stacking.scenes import SafetyGearScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import with_derived
 
 _SCENES = frozenset({SafetyGearScene})

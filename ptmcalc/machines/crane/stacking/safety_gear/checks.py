@@ -3,12 +3,12 @@
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.stacking.judging import OneCheck
-from ptmcalc.machines.crane.stacking.scenes import (
+from ptmcalc.machines.crane.stacking.machine.judging import OneCheck
+from ptmcalc.machines.crane.stacking.machine.scenes import (
     SafetyGearScene,
     StackerScene,
 )
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.spec.scene import Scene
 
 FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.machines.crane.stacking.machine.scenes import SafetyGearScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.safety_gear.fall import fall_of
-from ptmcalc.machines.crane.stacking.scenes import SafetyGearScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 
 from ptmcalc.laws import safety_gear
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.model import filled
-from ptmcalc.machines.crane.stacking.scenes import SafetyGearScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.model import filled
+from ptmcalc.machines.crane.stacking.machine.scenes import SafetyGearScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,11 @@ from typing import Any
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck
-from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
-from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import (
+from ptmcalc.machines.crane.stacking.machine import model
+from ptmcalc.machines.crane.stacking.machine.judging import Loads, OneCheck
+from ptmcalc.machines.crane.stacking.machine.overhead import OverheadStacker
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import (
     Brake,
     ForkCaught,
     ForkPush,
@@ -22,7 +22,7 @@ from ptmcalc.machines.crane.stacking.scenes import (
     Stand,
     Start,
 )
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength import stresses
 from ptmcalc.spec.scene import Scene
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.report import Amount, Cell, Column, LoadReport, SceneReport, TableReport
 from ptmcalc.contract.result import of
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 CRANE, LOAD = "weight of the crane", "weight of the lifted load"
 MECHANISMS, OBSTACLE = "dynamic: starting and braking of mechanisms", "dynamic: collision with an obstacle"

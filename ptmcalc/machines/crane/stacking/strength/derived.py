@@ -11,8 +11,8 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Found, of
-from ptmcalc.machines.crane.stacking.scenes import StackerScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.scenes import StackerScene
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength import stresses
 
 MARKED_BY = {

@@ -8,11 +8,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ptmcalc.laws import overturning
-from ptmcalc.machines.crane.stacking import columns, model
-from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
-from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import Brake, ForkPush, ObstacleScene, StackerScene, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine import columns, model
+from ptmcalc.machines.crane.stacking.machine.overhead import OverheadStacker
+from ptmcalc.machines.crane.stacking.machine.rack import RackStacker
+from ptmcalc.machines.crane.stacking.machine.scenes import Brake, ForkPush, ObstacleScene, StackerScene, Start
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 
 
 @dataclass(frozen=True, slots=True)

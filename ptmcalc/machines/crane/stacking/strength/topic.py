@@ -1,8 +1,8 @@
 """Strength: weights, load combinations, stresses, stability."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.crane.stacking.loads import OF_STRENGTH, OF_THE_TABLES, parts_of
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine.loads import OF_STRENGTH, OF_THE_TABLES, parts_of
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.checks import CHECKS_OF_STRENGTH
 from ptmcalc.machines.crane.stacking.strength.weights import WEIGHTS
 

@@ -3,9 +3,9 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking import columns, model
-from ptmcalc.machines.crane.stacking.scenes import Stand
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.machine import columns, model
+from ptmcalc.machines.crane.stacking.machine.scenes import Stand
+from ptmcalc.machines.crane.stacking.machine.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_derived
 
 

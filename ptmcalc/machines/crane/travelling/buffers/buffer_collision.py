@@ -9,11 +9,11 @@ from ptmcalc.components.buffer import Stopped, stopped
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer
-from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.buffers import yawing
-from ptmcalc.machines.crane.travelling.loads import OF_THE_BUFFERS, names
-from ptmcalc.machines.crane.travelling.scenes import Collision
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.loads import OF_THE_BUFFERS, names
+from ptmcalc.machines.crane.travelling.machine.scenes import Collision
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 _FAR = 10.0
 """Strokes of the buffers beyond which their continued curve is looked at in no finer steps."""

@@ -4,9 +4,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, only
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.crane.travelling.judging import HITS, OneCheck, rating
-from ptmcalc.machines.crane.travelling.scenes import TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.judging import HITS, OneCheck, rating
+from ptmcalc.machines.crane.travelling.machine.scenes import TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 STROKE: OneCheck = Check(
     code="CRN170",

@@ -3,8 +3,8 @@
 from ptmcalc.contract.topic import Topic
 from ptmcalc.machines.crane.travelling.buffers.buffer_collision import BUFFER_COLLISION
 from ptmcalc.machines.crane.travelling.buffers.checks import CHECKS_OF_BUFFERS
-from ptmcalc.machines.crane.travelling.loads import OF_THE_BUFFERS
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.loads import OF_THE_BUFFERS
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 BUFFERS: Topic[Travelling] = Topic(
     loads=OF_THE_BUFFERS,

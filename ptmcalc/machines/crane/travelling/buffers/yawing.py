@@ -5,10 +5,10 @@ import math
 from dataclasses import dataclass, replace
 
 from ptmcalc.components.buffer import Buffer
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.scenes import Collision
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import Collision
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 _STEPS = (150, 300)
 """Steps in the stroke of two runs, whose difference is the error: of the fourth order, so that some 1e-8 is left."""

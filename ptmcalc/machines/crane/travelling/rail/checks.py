@@ -2,7 +2,7 @@
 
 from ptmcalc.contract.check import Check, Sense, at, no_needs
 from ptmcalc.contract.limits import fixed
-from ptmcalc.machines.crane.travelling.judging import STEPS, OneCheck
+from ptmcalc.machines.crane.travelling.machine.judging import STEPS, OneCheck
 
 CONTACT: OneCheck = Check(
     code="CRN173",

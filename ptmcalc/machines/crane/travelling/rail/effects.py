@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import rail
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.scenes import RailStep
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.scenes import RailStep
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]

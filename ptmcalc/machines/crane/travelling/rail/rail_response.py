@@ -6,11 +6,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import rail
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import RailStep
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.rail.effects import RAIL
-from ptmcalc.machines.crane.travelling.scenes import RailStep
-from ptmcalc.machines.crane.travelling.spec import Travelling
 
 Numbers = dict[str, float]
 

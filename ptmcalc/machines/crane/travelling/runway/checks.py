@@ -4,9 +4,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, no_needs
 from ptmcalc.contract.limits import fixed
 from ptmcalc.laws.skew import LARGEST_ANGLE
-from ptmcalc.machines.crane.travelling.judging import OneCheck
-from ptmcalc.machines.crane.travelling.scenes import Runway, TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.judging import OneCheck
+from ptmcalc.machines.crane.travelling.machine.scenes import Runway, TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 
 def _angle_key(spec: Travelling) -> KeyPath:

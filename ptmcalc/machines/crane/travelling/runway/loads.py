@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.runway.groups import FRONT, GROUPS, LIGHT, LOADED, NAMES, PAIRS
-from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def _force(name: str, title: str) -> LoadInfo:

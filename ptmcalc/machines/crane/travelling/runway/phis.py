@@ -1,12 +1,12 @@
 """Dynamic factors of the actions on the runway: given, or computed by the laws of the other topics."""
 
 from ptmcalc.laws import standard_factors
-from ptmcalc.machines.crane.travelling.keys.actions import Actions
-from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.machine.keys.actions import Actions
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import RailStep
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.rail import rail_response
 from ptmcalc.machines.crane.travelling.runway.groups import DYNAMIC_TEST, ONE, REMAINING, STATIC_TEST
-from ptmcalc.machines.crane.travelling.scenes import RailStep
-from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics import factors
 
 PHIS = ("phi1", "phi2", "phi3", "phi4", "phi5", "phi6", "phi7")

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.laws import runway_actions, skew
-from ptmcalc.machines.crane.travelling import model, wheels
-from ptmcalc.machines.crane.travelling.keys.actions import Actions
-from ptmcalc.machines.crane.travelling.model import CORNERS, State
-from ptmcalc.machines.crane.travelling.scenes import TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model, wheels
+from ptmcalc.machines.crane.travelling.machine.keys.actions import Actions
+from ptmcalc.machines.crane.travelling.machine.model import CORNERS, State
+from ptmcalc.machines.crane.travelling.machine.scenes import TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 Both = tuple[float, float]
 

@@ -10,17 +10,17 @@ from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer, skew
 from ptmcalc.laws import runway_actions as laws
-from ptmcalc.machines.crane.travelling import guides, model
-from ptmcalc.machines.crane.travelling.keys.actions import Actions
-from ptmcalc.machines.crane.travelling.loads import names
-from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.machine import guides, model
+from ptmcalc.machines.crane.travelling.machine.keys.actions import Actions
+from ptmcalc.machines.crane.travelling.machine.loads import names
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import Runway
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.runway import loads as told
 from ptmcalc.machines.crane.travelling.runway import phis
 from ptmcalc.machines.crane.travelling.runway.groups import GROUPS, LIGHT, LOADED, OUT_OF_SERVICE, TO_COMPARE, Group
 from ptmcalc.machines.crane.travelling.runway.loads import OF_THE_RUNWAY
 from ptmcalc.machines.crane.travelling.runway.rails import Rails, drive_force, transverse
-from ptmcalc.machines.crane.travelling.scenes import Runway
-from ptmcalc.machines.crane.travelling.spec import Travelling
 
 Numbers = dict[str, float]
 _COMPARE = "to be compared with EN 1991-3:2006"

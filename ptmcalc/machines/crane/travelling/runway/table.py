@@ -6,7 +6,9 @@ from ptmcalc.contract.report import Amount, Cell, Column, LoadReport, SceneRepor
 from ptmcalc.contract.result import of
 from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling.assumptions import assumptions
-from ptmcalc.machines.crane.travelling.keys.actions import Actions
+from ptmcalc.machines.crane.travelling.machine.keys.actions import Actions
+from ptmcalc.machines.crane.travelling.machine.scenes import Runway
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.runway import loads as told
 from ptmcalc.machines.crane.travelling.runway import phis
 from ptmcalc.machines.crane.travelling.runway.groups import (
@@ -22,8 +24,6 @@ from ptmcalc.machines.crane.travelling.runway.groups import (
 )
 from ptmcalc.machines.crane.travelling.runway.rails import driven_per_rail
 from ptmcalc.machines.crane.travelling.runway.runway_actions import RUNWAY_ACTIONS
-from ptmcalc.machines.crane.travelling.scenes import Runway
-from ptmcalc.machines.crane.travelling.spec import Travelling
 
 Known = Mapping[str, LoadReport]
 _NONE, _MISSING = "-", "missing"

@@ -2,8 +2,8 @@
 
 from ptmcalc.contract.check import Check, Sense, at, blames, needs
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.crane.travelling.judging import OneCheck
-from ptmcalc.machines.crane.travelling.scenes import Skew
+from ptmcalc.machines.crane.travelling.machine.judging import OneCheck
+from ptmcalc.machines.crane.travelling.machine.scenes import Skew
 
 GUIDE: OneCheck = Check(
     code="CRN174",

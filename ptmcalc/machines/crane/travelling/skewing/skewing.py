@@ -6,11 +6,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import skew
-from ptmcalc.machines.crane.travelling import guides, model
-from ptmcalc.machines.crane.travelling.keys.runway import Guide
-from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.scenes import Skew
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import guides, model
+from ptmcalc.machines.crane.travelling.machine.keys.runway import Guide
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import Skew
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 
 def run(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> Result:

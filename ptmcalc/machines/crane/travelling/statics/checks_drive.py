@@ -7,7 +7,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor_rating import braking_number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.travelling.judging import (
+from ptmcalc.machines.crane.travelling.machine.judging import (
     RUNNING,
     STARTS,
     Loads,
@@ -15,8 +15,8 @@ from ptmcalc.machines.crane.travelling.judging import (
     torque_key,
     torque_repair,
 )
-from ptmcalc.machines.crane.travelling.scenes import Run, Start, TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.scenes import Run, Start, TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics import drive
 
 

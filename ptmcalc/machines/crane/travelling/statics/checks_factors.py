@@ -5,9 +5,9 @@ from collections.abc import Callable
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.crane.travelling.judging import HITS, RUNNING, STEPS, OneCheck
-from ptmcalc.machines.crane.travelling.scenes import TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.judging import HITS, RUNNING, STEPS, OneCheck
+from ptmcalc.machines.crane.travelling.machine.scenes import TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.spec.scene import Scene
 
 

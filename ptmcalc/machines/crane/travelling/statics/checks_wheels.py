@@ -2,12 +2,12 @@
 
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.travelling.judging import (
+from ptmcalc.machines.crane.travelling.machine.judging import (
     MOVES,
     RUNNING,
     OneCheck,
 )
-from ptmcalc.machines.crane.travelling.scenes import (
+from ptmcalc.machines.crane.travelling.machine.scenes import (
     Storm,
 )
 

@@ -4,10 +4,10 @@ import math
 
 from ptmcalc.components.motor_torque import overhauling_reserve
 from ptmcalc.laws import duty
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Run, Start, TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import HoistWhileTravelling, Run, Start, TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics import resisting
 
 COUNTING = ("S4", "S5")

@@ -1,8 +1,8 @@
 """Dynamic factors of the crane standards that do not need a motion: phi1, phi2, phi3, phi5, phi6."""
 
 from ptmcalc.laws import lift_off, lift_off_standard, standard_factors
-from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 CREEPING = ("HD2", "HD3")
 """Drive classes whose load is lifted off the ground at the creep speed."""

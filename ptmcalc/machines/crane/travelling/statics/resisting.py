@@ -3,10 +3,10 @@
 import math
 
 from ptmcalc.laws import travel
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.scenes import TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.model import filled
+from ptmcalc.machines.crane.travelling.machine.scenes import TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 
 def coefficient(spec: Travelling) -> float:

@@ -1,9 +1,9 @@
 """Steady travel: resistance, power, wheel loads, stability, duty, standard factors."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.crane.travelling.loads import FACTORS as FACTORS_OF_STANDARDS
-from ptmcalc.machines.crane.travelling.loads import OF_THE_CLASS, OF_THE_WHEELS, OF_TRAVEL, parts_of
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.loads import FACTORS as FACTORS_OF_STANDARDS
+from ptmcalc.machines.crane.travelling.machine.loads import OF_THE_CLASS, OF_THE_WHEELS, OF_TRAVEL, parts_of
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics.checks_drive import CHECKS_OF_DRIVE
 from ptmcalc.machines.crane.travelling.statics.checks_factors import FACTORS
 from ptmcalc.machines.crane.travelling.statics.checks_wheels import CHECKS_OF_WHEELS

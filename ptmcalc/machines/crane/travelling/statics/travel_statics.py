@@ -8,12 +8,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification, wheel_loads
-from ptmcalc.machines.crane.travelling import model, stability, wheels
-from ptmcalc.machines.crane.travelling.keys.duty import Duty
-from ptmcalc.machines.crane.travelling.loads import EVEN, OF_THE_WHEELS, names
-from ptmcalc.machines.crane.travelling.model import CORNERS
-from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Run, Start, TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model, stability, wheels
+from ptmcalc.machines.crane.travelling.machine.keys.duty import Duty
+from ptmcalc.machines.crane.travelling.machine.loads import EVEN, OF_THE_WHEELS, names
+from ptmcalc.machines.crane.travelling.machine.model import CORNERS
+from ptmcalc.machines.crane.travelling.machine.scenes import HoistWhileTravelling, Run, Start, TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics import drive, factors, resisting
 
 Numbers = dict[str, float]

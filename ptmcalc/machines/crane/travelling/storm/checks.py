@@ -3,9 +3,9 @@
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, LimitState, Sense, no_needs
 from ptmcalc.contract.limits import key
-from ptmcalc.machines.crane.travelling.judging import OneCheck
-from ptmcalc.machines.crane.travelling.scenes import Storm, TravelScene
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.judging import OneCheck
+from ptmcalc.machines.crane.travelling.machine.scenes import Storm, TravelScene
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 
 def _storm_key(spec: Travelling, scene: TravelScene) -> KeyPath:

@@ -4,11 +4,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import travel
-from ptmcalc.machines.crane.travelling import model, stability, wheels
-from ptmcalc.machines.crane.travelling.loads import OF_THE_STORM, names
-from ptmcalc.machines.crane.travelling.model import State, filled
-from ptmcalc.machines.crane.travelling.scenes import Storm
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model, stability, wheels
+from ptmcalc.machines.crane.travelling.machine.loads import OF_THE_STORM, names
+from ptmcalc.machines.crane.travelling.machine.model import State, filled
+from ptmcalc.machines.crane.travelling.machine.scenes import Storm
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics import resisting
 
 

@@ -1,8 +1,8 @@
 """Storm: wind out of service."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.crane.travelling.loads import OF_THE_STORM
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.loads import OF_THE_STORM
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.storm.checks import STORM
 from ptmcalc.machines.crane.travelling.storm.storm_parking import STORM_PARKING
 

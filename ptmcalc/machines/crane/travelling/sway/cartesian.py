@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.machines.crane.travelling.model import State
+from ptmcalc.machines.crane.travelling.machine.model import State
 
 FloatArray = NDArray[np.float64]
 Signal = Callable[[FloatArray], FloatArray]

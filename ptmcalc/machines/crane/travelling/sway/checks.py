@@ -3,8 +3,8 @@
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, no_repair, only
 from ptmcalc.contract.limits import fixed, key
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.judging import (
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.judging import (
     MOVES,
     STARTS,
     Loads,
@@ -15,14 +15,14 @@ from ptmcalc.machines.crane.travelling.judging import (
     torque_key,
     torque_repair,
 )
-from ptmcalc.machines.crane.travelling.scenes import (
+from ptmcalc.machines.crane.travelling.machine.scenes import (
     Brake,
     HoistWhileTravelling,
     Moving,
     Start,
     TravelScene,
 )
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 
 
 def _moving(scene: TravelScene) -> Moving:

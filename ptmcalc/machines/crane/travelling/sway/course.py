@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.estimate import Estimate, Interval
-from ptmcalc.machines.crane.travelling.model import State
+from ptmcalc.machines.crane.travelling.machine.model import State
 
 FloatArray = NDArray[np.float64]
 

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from ptmcalc.components.motor import ConverterMotor, Stage
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_stage import Stage
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.moving import Motion
 from ptmcalc.numerics.pendulum.parts import Follow, Push, Smooth, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces

@@ -8,16 +8,16 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.model import State
-from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, Start
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.loads import MOVING
+from ptmcalc.machines.crane.travelling.machine.model import State
+from ptmcalc.machines.crane.travelling.machine.scenes import Brake, HoistWhileTravelling, Moving, Start
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.wheels import Wheels
 from ptmcalc.machines.crane.travelling.sway.finite import far, regular, widened
 from ptmcalc.machines.crane.travelling.sway.linear import linear_course
 from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of
 from ptmcalc.machines.crane.travelling.sway.reading import loads_of
-from ptmcalc.machines.crane.travelling.wheels import Wheels
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 
 from ptmcalc.components.motor import ConverterMotor
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Moving
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.scenes import HoistWhileTravelling, Moving
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics import resisting
 
 

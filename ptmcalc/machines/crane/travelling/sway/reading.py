@@ -9,14 +9,14 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, of
 from ptmcalc.laws import pendulum
-from ptmcalc.machines.crane.travelling import model, stability
-from ptmcalc.machines.crane.travelling.judging import rate_key
-from ptmcalc.machines.crane.travelling.model import FloatArray, State
-from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model, stability
+from ptmcalc.machines.crane.travelling.machine.judging import rate_key
+from ptmcalc.machines.crane.travelling.machine.model import FloatArray, State
+from ptmcalc.machines.crane.travelling.machine.scenes import Moving
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.wheels import Wheels, driven_corners
 from ptmcalc.machines.crane.travelling.sway.course import Course, extreme
 from ptmcalc.machines.crane.travelling.sway.moving import motion_of
-from ptmcalc.machines.crane.travelling.wheels import Wheels, driven_corners
 
 STALL = "stall: the motors do not bring the crane to full speed against friction, wind and slope"
 RUNAWAY = "the brakes do not stop the crane against wind and slope"

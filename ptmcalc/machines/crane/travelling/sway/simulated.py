@@ -11,10 +11,10 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Finding, History
-from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.model import State, filled
-from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine import model
+from ptmcalc.machines.crane.travelling.machine.model import State, filled
+from ptmcalc.machines.crane.travelling.machine.scenes import Moving
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.course import Course, Reading, Worst
 from ptmcalc.machines.crane.travelling.sway.drive_laws import drive_laws
 from ptmcalc.machines.crane.travelling.sway.linear import linear_course, stalled

@@ -5,9 +5,9 @@ import math
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.loads import MOVING
+from ptmcalc.machines.crane.travelling.machine.scenes import Moving
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.effects import IN_PLANE, LARGE, MOVING_SCENES, SWAY
 from ptmcalc.machines.crane.travelling.sway.finite import exact_course, regular
 from ptmcalc.machines.crane.travelling.sway.moving import motion_of

@@ -3,9 +3,9 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.loads import MOVING
+from ptmcalc.machines.crane.travelling.machine.scenes import Moving
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.effects import IN_PLANE, MOVING_SCENES, SWAY
 from ptmcalc.machines.crane.travelling.sway.linear import linear_course, over_time
 from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of, stalls

@@ -1,8 +1,8 @@
 """Starting and stopping: sway of the load, wheel loads, adhesion."""
 
 from ptmcalc.contract.topic import Topic
-from ptmcalc.machines.crane.travelling.loads import OF_MOTION, parts_of
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.machine.loads import OF_MOTION, parts_of
+from ptmcalc.machines.crane.travelling.machine.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.checks import CHECKS_OF_SWAY
 from ptmcalc.machines.crane.travelling.sway.effects import EFFECTS_OF_TRAVEL
 from ptmcalc.machines.crane.travelling.sway.sway_exact import SWAY_EXACT

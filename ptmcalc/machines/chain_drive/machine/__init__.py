@@ -1,0 +1,1 @@
+"""The chain drive: what a file says of it, and the models that several topics share."""

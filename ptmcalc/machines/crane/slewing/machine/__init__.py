@@ -1,0 +1,1 @@
+"""The slewing crane: what a file says of it, and its model."""

@@ -1,0 +1,1 @@
+"""The drive train: what a file says of it, and its model."""

@@ -1,0 +1,1 @@
+"""The hoist: what a file says of it, and its model."""

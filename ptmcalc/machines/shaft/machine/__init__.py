@@ -1,0 +1,1 @@
+"""The main shaft: what a file says of it, and the models that several topics share."""
