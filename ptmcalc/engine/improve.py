@@ -142,12 +142,26 @@ def improve(
 
     Of each key two trial values show whether it moves them. The nearest value is found at which all of them pass in
     all their scenes, or as many as can; it is then put into the file and everything is checked. Only what passes there
-    is told. Keys that seem to need the least change come first; the work is limited to so many predicted seconds, of
-    keys and of pairs.
+    is told. The keys that these checks offer as repair come first, then those that seem to need the least change; the
+    work is limited to so many predicted seconds, of keys and of pairs.
     """
     found = Improvement(wanted_of(report, codes))
     search = _Whole(loaded, report, options, tuple(key for key, _ in found.wanted), SearchPurse(seconds[0]))
     machine = Machine(search.purse, loaded, search.wanted)
+    codes_wanted = {code for _, code, _ in search.wanted}
+    own = [one for one in levers if not codes_wanted.isdisjoint(one.repairs)]
+    for group in (own, [one for one in levers if one not in own]):
+        _try_each(search, machine, group, found)
+    found.answers.sort(key=lambda one: one.order)
+    if found.answers and not found.solved:
+        search.purse = SearchPurse(seconds[1])
+        found.answers += list(_pairs(search, found, levers))
+        found.answers.sort(key=lambda one: one.order)
+    return found
+
+
+def _try_each(search: "_Whole", machine: Machine, levers: Sequence[Lever], found: Improvement) -> None:
+    """The answers of single keys, as far as the work budget goes."""
     moving = _ranked(machine, levers, found)
     for place, lever in enumerate(moving):
         try:
@@ -159,18 +173,11 @@ def improve(
             found.useless.append(lever)
         else:
             found.answers.append(answer)
-    found.answers.sort(key=lambda one: one.order)
-    if found.answers and not found.solved:
-        search.purse = SearchPurse(seconds[1])
-        found.answers += list(_pairs(search, found, levers))
-        found.answers.sort(key=lambda one: one.order)
-    return found
 
 
 def _ranked(machine: Machine, levers: Sequence[Lever], found: Improvement) -> list[Lever]:
-    """The keys that move the wanted checks: their own repairs first, then what seems to need the least change."""
-    own = {code for _, code, _ in machine.wanted}
-    needed: list[tuple[tuple[bool, float, float], Lever]] = []
+    """The keys that move the wanted checks, those first that seem to need the least change."""
+    needed: list[tuple[tuple[float, float], Lever]] = []
     for place, lever in enumerate(levers):
         try:
             change = machine.trial(lever).seems_to_need()
@@ -180,7 +187,7 @@ def _ranked(machine: Machine, levers: Sequence[Lever], found: Improvement) -> li
         if change is None:
             found.idle.append(lever)
         else:
-            needed.append(((own.isdisjoint(lever.repairs), *change), lever))
+            needed.append((change, lever))
     return [lever for _, lever in sorted(needed, key=lambda one: one[0])]
 
 
