@@ -100,6 +100,10 @@ class MachineKind(Generic[S]):
     uses: Mapping[str, Use] = field(default_factory=dict, hash=False)
     """by key, as `base.column`: where the constant that its declaration assumes is used; everywhere if not named"""
 
+    levers: tuple[str, ...] = ()
+    """keys that `improve` may change beside those that the checks name as repair, as `drive.drum.wrap`; one as
+    `scenes[*].profile.time` has one value in all scenes that write it"""
+
     seconding: Callable[[], tuple[AnySolver, ...]] = no_reference_methods
     """reads solvers of another method that no plan offers: `cost` holds what the planned ones find against theirs"""
 

@@ -2,7 +2,7 @@
 
 import math
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import date
@@ -31,7 +31,7 @@ from ptmcalc.contract.report import (
     SolverReport,
 )
 from ptmcalc.contract.result import Finding, History
-from ptmcalc.engine.ends import Flips, by_key, flips_of
+from ptmcalc.engine.ends import Flips, Key, by_key, flips_of
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
@@ -199,16 +199,28 @@ def _again(
     options: Options, loaded: Loaded, one: AnyCheck, scenes: tuple[str, ...], most: float
 ) -> tuple[list[Verdict], float]:
     """The verdicts of one check in a changed file, and the predicted seconds of its runs; none if it is invalid."""
-    kind, spec, made = loaded.kind, loaded.spec, planned_for(loaded, replace(options, scenes=scenes))
+    own = replace(options, scenes=scenes)
+    rulings, spent = judged_again(own, loaded, {(one.code, one.element)}, FilePurse(most))
+    return [ruling.verdict for ruling in rulings.values()], spent
+
+
+def judged_again(
+    options: Options, loaded: Loaded, wanted: Container[tuple[str, str]], purse: FilePurse
+) -> tuple["Mapping[Key, Ruling]", float]:
+    """How checks, by code and element, stand in a changed file with each assumed value at both ends, and the predicted
+    seconds of the runs with the assumed values; none if the file is invalid."""
+    kind, spec, made = loaded.kind, loaded.spec, planned_for(loaded, options)
     if kind is None or spec is None or made is None:
-        return [], 0.0
+        return {}, 0.0
     if any(found.severity is Severity.ERROR for found in _conflicts(loaded, kind, spec, made, options)):
-        return [], 0.0
-    purse = FilePurse(most)
-    settled = [purse.settle(kind, spec, scene, {(one.code, one.element)}) for scene in made.scenes]
+        return {}, 0.0
+    settled = [purse.settle(kind, spec, scene, wanted) for scene in made.scenes]
     flips = flips_of(kind, spec, made, settled, loaded.assumed, purse)
-    verdicts = [Verdict.UNDECIDED if key in flips else ruling.verdict for key, ruling in by_key(made, settled)]
-    return verdicts, sum(scene.spent for scene in settled)
+    rulings = {
+        key: replace(ruling, verdict=Verdict.UNDECIDED) if key in flips else ruling
+        for key, ruling in by_key(made, settled)
+    }
+    return rulings, sum(scene.spent for scene in settled)
 
 
 def _nothing_checked(loaded: Loaded, scenes: Sequence[SceneReport]) -> Iterator[Diagnostic]:

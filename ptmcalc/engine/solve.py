@@ -30,7 +30,7 @@ floating point. Fewer steps may end with a wider bracket; more take longer where
 _CLOSE_ENOUGH = 5e-3
 """Relative width of a bracket [1] that is an answer where the budget is used up. A numerical choice: a larger value
 gives rough answers; a smaller one reports more searches as unfinished."""
-_FINEST = 1
+FINEST = 1
 """Maximum level of a run while a value is searched. A numerical choice: near the limit every level would run. A larger
 value takes longer; 0 finds rough values."""
 _STEP = 0.01
@@ -45,7 +45,7 @@ Clearance = Callable[[float], float]
 check passes from 0 up."""
 Spare = Callable[[Estimate], float]
 """The margin wanted beside a limit."""
-_Bracket = tuple[float, float]
+Bracket = tuple[float, float]
 """A value that fails and one that passes, neighbours among those tried."""
 
 
@@ -95,20 +95,16 @@ def solve(
     """
     spec = loaded.spec
     assert spec is not None, "only a machine can be solved for"
-    present = spec.value_at(path)
-    measure = measure_at(spec, path)
-    counts = measure is None and isinstance(present, int) and not isinstance(present, bool) and present > 0
-    known = measure is not None and isinstance(present, int | float) and present != 0
-    if not (counts or known):
+    grid = grid_of(spec, path, digits)
+    if grid is None:
         raise UsageError(
             f"`{dotted(path)}` is not a number that can be varied", "name a key with a value, as in the file"
         )
     names = (scenes,) if isinstance(scenes, str) and scenes else tuple(scenes)
     search = _Search(loaded, check, path, names, spare, purse or SearchPurse(math.inf))
-    grid = _Grid(measure.quantity if measure else RATIO, digits, counts)
     try:
-        edges = _edges(search, float(present), grid)
-    except _SpentError:
+        edges = _edges(search, float(spec.value_at(path)), grid)
+    except SpentError:
         return None
     return Solution(path, edges[0], grid.quantity, *edges[1:]) if edges else None
 
@@ -132,7 +128,7 @@ def boundary(
         yield value, solve(other, check, path, scene_name, spare=spare) if other.spec is not None else None
 
 
-class _SpentError(Exception):
+class SpentError(Exception):
     """A search has no seconds left."""
 
 
@@ -147,15 +143,15 @@ class SearchPurse:
         """Take what a run cost.
 
         Raises:
-            _SpentError: there is no more.
+            SpentError: there is no more.
         """
         self.spent += seconds
         if self.spent > self.most:
-            raise _SpentError
+            raise SpentError
 
 
 @dataclass(frozen=True, slots=True)
-class _Grid:
+class Grid:
     """How closely a value is looked for: digits of its unit, or whole numbers."""
 
     quantity: Quantity
@@ -213,6 +209,15 @@ class _Grid:
         """The unit a value is shown in, and behind how many decimals its last digit stands there."""
         factor = unit_of(display_unit(value, self.quantity))[0]
         return factor, self.digits - 1 - math.floor(math.log10(abs(value / factor)))
+
+
+def grid_of(spec: MachineSpec, path: KeyPath, digits: int) -> Grid | None:
+    """How the number at a key is varied; None where there is no number, or one without a size, as 0."""
+    present = spec.value_at(path)
+    measure = measure_at(spec, path)
+    counts = measure is None and isinstance(present, int) and not isinstance(present, bool) and present > 0
+    known = measure is not None and isinstance(present, int | float) and present != 0
+    return Grid(measure.quantity if measure else RATIO, digits, counts) if counts or known else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -282,25 +287,16 @@ class _Search:
         return -math.inf if math.isnan(clearance) else clearance - self.spare(ruling.limit)
 
 
-def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
+def _edges(search: _Search, present: float, grid: Grid) -> list[float]:
     """Where the check just passes, whatever is assumed: next to the present value, and where the check forbids a band
     on the other side too."""
-    clearances = search.clearances(_FINEST)
+    clearances = search.clearances(FINEST)
     found: list[float] = []
     for place in range(2 if search.check.forbids_band else 1):
-        clearance: Clearance | None = clearances[0]
-        good = bad = math.nan
-        for _ in clearances:
-            if clearance is None:
-                break
-            bracket = next(islice(_brackets(clearance, present, grid), place, None), None)
-            if bracket is None:
-                return found
-            bad, good = _narrow(clearance, *bracket, grid)
-            good = grid.rounded(clearance, bad, good)
-            clearance = next((other for other in clearances if other(good) < 0), None)
-        if clearance is not None:
+        bracket = _passing(clearances, present, grid, place)
+        if bracket is None:
             return found
+        bad, good = bracket
         farthest = present * (FARTHEST if abs(bad) > abs(good) else 1 / FARTHEST)
         edge = _weakest(search, good, farthest, grid)
         if edge is None:
@@ -309,13 +305,30 @@ def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
     return found
 
 
-def _weakest(search: _Search, good: float, farthest: float, grid: _Grid) -> float | None:
+def _passing(clearances: Sequence[Clearance], present: float, grid: Grid, place: int) -> Bracket | None:
+    """The value next to the present one from which all clearances pass, behind one that fails: by the first of them,
+    then by one that fails there. The second such value, on the other side, at `place` 1. None where there is none."""
+    clearance = clearances[0]
+    for _ in clearances:
+        bracket = next(islice(_brackets(clearance, present, grid), place, None), None)
+        if bracket is None:
+            return None
+        bad, good = _narrow(clearance, *bracket, grid)
+        good = grid.rounded(clearance, bad, good)
+        failing = next((other for other in clearances if other(good) < 0), None)
+        if failing is None:
+            return bad, good
+        clearance = failing
+    return None
+
+
+def _weakest(search: _Search, good: float, farthest: float, grid: Grid) -> float | None:
     """The last value that passes, to 1 % or a whole number, by all refinements there are: where a key matters little,
     or a bar is wide, they move the edge by more than that. It may take as many seconds again as the search.
     None where they pass as far as values are looked at.
 
     Raises:
-        _SpentError: it has found the edge to move, and has no seconds to find where to.
+        SpentError: it has found the edge to move, and has no seconds to find where to.
     """
     finish = replace(search, purse=SearchPurse(search.purse.most))
     clearances = finish.clearances(math.inf)
@@ -344,7 +357,7 @@ def _weakest(search: _Search, good: float, farthest: float, grid: _Grid) -> floa
         search.purse.spent += finish.purse.spent
 
 
-def _brackets(clearance: Clearance, present: float, grid: _Grid) -> Iterator[_Bracket]:
+def _brackets(clearance: Clearance, present: float, grid: Grid) -> Iterator[Bracket]:
     """Changes between fail and pass, one on each side of the present value, as they are met in steps outwards."""
     passes = clearance(present) >= 0
     reached = {1: present, -1: present}
@@ -358,7 +371,7 @@ def _brackets(clearance: Clearance, present: float, grid: _Grid) -> Iterator[_Br
                 reached[side] = candidate
 
 
-def _narrow(clearance: Clearance, bad: float, good: float, grid: _Grid) -> _Bracket:
+def _narrow(clearance: Clearance, bad: float, good: float, grid: Grid) -> Bracket:
     """A narrow bracket round the change from fail to pass: secant steps kept away from its ends,
     halved where the clearance is not finite, or 0 as that of a count at its limit."""
     weight = 1.0
@@ -372,7 +385,7 @@ def _narrow(clearance: Clearance, bad: float, good: float, grid: _Grid) -> _Brac
         middle = grid.between(bad, good, share)
         try:
             passes = clearance(middle) >= 0
-        except _SpentError:
+        except SpentError:
             if abs(good - bad) <= _CLOSE_ENOUGH * abs(good):
                 break
             raise

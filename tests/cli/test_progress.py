@@ -5,6 +5,7 @@ import re
 import signal
 import sys
 import time
+from pathlib import Path
 
 import pytest
 from support.command import ROOT, python
@@ -48,6 +49,15 @@ def test_a_check_says_which_scene_and_assumption_it_computes_and_takes_it_away()
 def test_a_search_says_which_value_it_tries() -> None:
     line = rb"\d s  takeup.tension = [\d.]+ kN, CNV101"
     said, _ = on_a_terminal("solve", LONG.as_posix(), "--check", "CNV101", "--vary", "takeup.tension", until=line)
+    assert re.search(line, said)
+
+
+def test_improve_says_which_value_it_tries(tmp_path: Path) -> None:
+    file = tmp_path / "weak.yaml"
+    text = (ROOT / "specs" / "hoist.yaml").read_text("utf-8")
+    file.write_text(text.replace("mean_starting_torque: 75 N*m", "mean_starting_torque: 45 N*m"), "utf-8")
+    line = rb"\d s  motor.mean_starting_torque = [\d.]+ N\*m"
+    said, _ = on_a_terminal("improve", file.as_posix(), "--keys", "motor.mean_starting_torque", until=line)
     assert re.search(line, said)
 
 

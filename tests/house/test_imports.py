@@ -34,6 +34,7 @@ COMMANDS = (
     "plan",
     "cost",
     "solve",
+    "improve",
     "scale",
     "sweep",
     "new",

@@ -134,7 +134,7 @@ OPTIONS = sorted(
 def test_an_option_the_readme_names_exists(option: str) -> None:
     helps = [
         unpainted(ptmcalc(command, "--help").out)
-        for command in ("check", "cost", "solve", "scale", "sweep", "tolerances", "explain")
+        for command in ("check", "cost", "solve", "improve", "scale", "sweep", "tolerances", "explain")
     ]
     assert any(re.search(rf"(?<!\S){option}\b", text) for text in helps)
 

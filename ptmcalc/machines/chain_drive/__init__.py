@@ -100,6 +100,7 @@ KIND = MachineKind(
     symbols=symbols_in(__package__, TOPICS),
     examples=examples_in(__package__),
     assumed=assumptions,
+    levers=("scenes[*].profile.time",),
     relations=RELATIONS,
     inspect=inspect,
     seconding=reference_methods_in(__package__),

@@ -28,6 +28,7 @@ KIND = MachineKind(
     symbols=symbols_in(__package__, TOPICS),
     examples=examples_in(__package__),
     assumed=assumptions,
+    levers=("scenes[*].profile.time", "drive.drum.wrap", "drive.drum.friction", "brake.torque"),
     relations=RELATIONS,
     inspect=inspect,
     seconding=reference_methods_in(__package__),

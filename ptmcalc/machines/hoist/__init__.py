@@ -122,6 +122,7 @@ KIND = MachineKind(
     symbols=symbols_in(__package__, TOPICS),
     examples=examples_in(__package__),
     assumed=assumptions,
+    levers=("gearbox.ratio", "scenes[*].profile.time"),
     inspect=inspect,
     relations=RELATIONS,
     uses=USES,

@@ -86,6 +86,7 @@ TRAVELLING = MachineKind(
     seconding=reference_methods_in(__package__),
     symbols=symbols_in(__package__, TOPICS),
     assumed=assumptions,
+    levers=("trolley.nearest", "drive.motor.ramp_time"),
     uses=USES,
     inspect=inspect,
     relations=RELATIONS,
