@@ -15,6 +15,8 @@ from ptmcalc.cli.options import (
     AccuracyOption,
     BudgetOption,
     CheckFormat,
+    CodesOption,
+    ConfidenceOption,
     CostFormat,
     EffectsOption,
     ExcludeOption,
@@ -22,11 +24,14 @@ from ptmcalc.cli.options import (
     ExplainFormat,
     GitignoreOption,
     JobsOption,
-    Law,
+    KeysOption,
+    LawOption,
     ListFormat,
     ListOption,
+    RangesOption,
     RepairsOption,
     Sample,
+    SampleOption,
     ScenesOption,
     ShardOption,
     StoreOption,
@@ -394,18 +399,8 @@ def solve(
 @app.command()
 def improve(
     path: Annotated[str, typer.Argument(help="A design file.")],
-    code: Annotated[
-        list[str] | None,
-        typer.Option("--check", metavar="CODE", help="Only this check is to pass; may be repeated. Default: all."),
-    ] = None,
-    keys: Annotated[
-        str,
-        typer.Option(
-            "--keys",
-            metavar="KEYS",
-            help="Only these keys may change, e.g. takeup.tension,belt.strength; with a + before the first, these too.",
-        ),
-    ] = "",
+    code: CodesOption = None,
+    keys: KeysOption = "",
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     form: ListOption = ListFormat.TABLE,
@@ -425,18 +420,8 @@ def improve(
 @app.command()
 def sweep(
     path: Annotated[str, typer.Argument(help="A design file.")],
-    vary: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--vary",
-            metavar="KEY=FROM:TO:N",
-            help="A key and its values, e.g. 'takeup.tension=20 kN:60 kN:21'; `:log` behind it for equal ratios; may be"
-            " repeated. With --sample lhs KEY=FROM:TO.",
-        ),
-    ] = None,
-    sample: Annotated[
-        Sample, typer.Option("--sample", help="All combinations, or a Latin hypercube of --points points.")
-    ] = Sample.GRID,
+    vary: RangesOption = None,
+    sample: SampleOption = Sample.GRID,
     points: Annotated[int | None, typer.Option("--points", help="Points of a Latin hypercube.")] = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random points.")] = 0,
     form: Annotated[StudyFormat, typer.Option("--format", help="Output format.")] = StudyFormat.TABLE,
@@ -467,12 +452,7 @@ def tolerances(
     path: Annotated[str, typer.Argument(help="A design file with `tolerances:`.")],
     samples: Annotated[int, typer.Option("--samples", help="Number of random machines.")] = 10_000,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random machines.")] = 0,
-    confidence: Annotated[
-        str,
-        typer.Option(
-            "--confidence", help="Confidence level of the intervals, and share of machines with the stated margin."
-        ),
-    ] = "95 %",
+    confidence: ConfidenceOption = "95 %",
     form: Annotated[StudyFormat, typer.Option("--format", help="Output format.")] = StudyFormat.TABLE,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
@@ -500,9 +480,7 @@ def tolerances(
 def scale(
     path: Annotated[str, typer.Argument(help="A design file.")],
     length: Annotated[str, typer.Option("--length", help="Model to prototype, e.g. 1:10 or 0.1.")],
-    law: Annotated[
-        Law, typer.Option("--law", help="Similarity of the model: full, without gravity, or gravity by ballast.")
-    ],
+    law: LawOption,
     modulus: Annotated[str, typer.Option("--modulus", help="Elastic modulus, model to prototype.")] = "",
     density: Annotated[str, typer.Option("--density", help="Density of the material, model to prototype.")] = "",
     gravity: Annotated[str, typer.Option("--gravity", help="Gravity, model to prototype: a centrifuge.")] = "",

@@ -76,6 +76,39 @@ EffectsOption = Annotated[
     list[str] | None,
     typer.Option("--effects", help="NAME=on|off|auto; overrides the setting of the file; may be repeated."),
 ]
+ConfidenceOption = Annotated[
+    str,
+    typer.Option(
+        "--confidence", help="Confidence level of the intervals, and share of machines with the stated margin."
+    ),
+]
+LawOption = Annotated[
+    Law, typer.Option("--law", help="Similarity of the model: full, without gravity, or gravity by ballast.")
+]
+SampleOption = Annotated[
+    Sample, typer.Option("--sample", help="All combinations, or a Latin hypercube of --points points.")
+]
+CodesOption = Annotated[
+    list[str] | None,
+    typer.Option("--check", metavar="CODE", help="Only this check is to pass; may be repeated. Default: all."),
+]
+KeysOption = Annotated[
+    str,
+    typer.Option(
+        "--keys",
+        metavar="KEYS",
+        help="Only these keys may change, e.g. takeup.tension,belt.strength; with a + before the first, these too.",
+    ),
+]
+RangesOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="KEY=FROM:TO:N",
+        help="A key and its values, e.g. 'takeup.tension=20 kN:60 kN:21'; `:log` behind it for equal ratios; may be"
+        " repeated. With --sample lhs KEY=FROM:TO.",
+    ),
+]
 ExcludeOption = Annotated[
     list[str] | None,
     typer.Option("--exclude", metavar="PATTERN", help="Exclude files by a .gitignore pattern; may be repeated."),

@@ -69,12 +69,13 @@ def settle(
             following = next_run(settled, spec, waiting, wanted_loads(kind, spec, settled, whole=whole))
         else:
             following = waiting[0]  # nothing is known yet: whatever is wanted, the cheapest run comes first
-        if following is None and postponed:
+        runs = following is not None and until(following) and settled.spent - shown_for + following.seconds <= budget
+        if postponed and not runs:
             waiting = [rung for rung in scene.rungs if rung in waiting or rung.key in postponed]
             postponed = set()
             continue
         settled.next_rung = following
-        if following is not None and until(following) and settled.spent - shown_for + following.seconds <= budget:
+        if following is not None and runs:
             waiting.remove(following)
             _climb(settled, spec, following, results.get(following.key))
             _relate(kind, spec, settled)
