@@ -13,7 +13,7 @@ from support.command import ROOT
 
 BY_TEST = {
     # Random or extreme machines, each like the next.
-    "tests/stability": 12,
+    "tests/stability": 16,
     "tests/edges/drivetrain/test_overhauling.py::test_the_worst_moment_decides": 3,
     "tests/edges/test_assumption_uses.py::test_an_assumed_value_changes_nothing_elsewhere": 3,
     "tests/edges/test_error_bars_meet.py": 12,
@@ -54,7 +54,8 @@ BY_TEST = {
     "tests/machines/crane/test_stacker_combinations.py::test_a_change_of_an_event_changes_its_combinations": 3,
     "tests/report/test_html.py::test_a_page_is_sound": 4,
     # Machines and processes that cost much; each of them stands for the others.
-    "tests/cli/test_cluster.py": 2,
+    "tests/cli/test_batch.py": 3,
+    "tests/cli/test_cluster.py": 3,
     "tests/house/test_imports.py": 2,
     "tests/report/test_absent_effects.py": 3,
     "tests/report/test_one_screen.py": 3,
@@ -63,7 +64,7 @@ BY_TEST = {
     "tests/house/test_explain.py::test_an_example_with_a_file_of_its_own_says_what_is_said": 3,
 }
 """One test in so many runs at each commit: of a room, of a file, or of what is named in it."""
-BY_FILE = {"tests/coverage": 12}
+BY_FILE = {"tests/coverage": 20}
 """The same of whole files, whose tests share one sample of random machines."""
 MANY = 3
 """Cases of one test that run at each commit; those of a longer table take turns: they run through the same lines."""
