@@ -238,8 +238,10 @@ def _no_interval(one: Estimate) -> Iterator[str]:
 def _unfounded(judgement: Judgement, told: bool) -> Iterator[str]:
     """A verdict without a number that bears it, an open one without a reason; `told` whether the report says why some
     numbers are not known, which the reason of a check may do as well: by the load, and who leaves out or rules out
-    what."""
+    what. A failure that a run found, as a stall, has its reason instead of a number."""
     value, limit = judgement.value, judgement.limit
+    if judgement.verdict is Verdict.FAIL and value is None and judgement.reason:
+        return
     if judgement.verdict in (Verdict.PASS, Verdict.FAIL):
         if value is None or limit is None or any(_no_interval(value)):
             yield f"is a {judgement.verdict} without a number"
